@@ -23,15 +23,15 @@ std::string figure_text(double value) {
       {marks.at(key), marks.key_path(key), std::move(found), std::move(accepted), std::move(hint)});
 }
 
-void check_fleet_robot(const Fleet& fleet, const FleetRobot& item, const Robot& robot) {
+void check_fleet_robot(const FleetRobot& item, const Robot& robot) {
   if (!robot.limits)
     refuse(item.marks, "robot", item.robot_file + ", a robot without limits", "a robot with limits");
   if (!std::isfinite(robot.battery.capacity_Wh))
     refuse(item.marks, "robot", item.robot_file + ", a robot without battery.capacity_Wh",
            "a robot with a battery");
-  if (robot.uncertainty.empty() && !fleet.energy_margin)
-    refuse(item.marks, "robot", item.robot_file + ", a robot file without uncertainty",
-           "a robot file with uncertainty, or energy_margin in the fleet file",
+  if (!robot.model_energy_sigma())
+    refuse(item.marks, "robot", item.robot_file + ", a robot file without model_energy in uncertainty",
+           "a robot file with model_energy, or energy_margin in the fleet file",
            "the upper bound of the energy guards the battery's reserve");
   if (item.battery_fraction < robot.battery.reserve_fraction)
     refuse(item.marks, "battery_fraction", figure_text(item.battery_fraction),
@@ -48,6 +48,7 @@ FleetType read_type(const Fleet& fleet, const FleetRobot& item, const ReadOption
   type.space =
       std::make_unique<RouteSpace>(*type.world.map, type.world.keepout ? &*type.world.keepout : nullptr,
                                    robot.footprint, floor.clearance_m);
+  if (fleet.energy_margin) type.world.robot.uncertainty.try_emplace("model_energy", *fleet.energy_margin);
   return type;
 }
 
@@ -69,7 +70,7 @@ class Checks {
   void run() const {
     for (std::size_t r = 0; r < fleet_.robots.size(); ++r) {
       const FleetRobot& robot = fleet_.robots[r];
-      check_fleet_robot(fleet_, robot, robot_of(r));
+      check_fleet_robot(robot, robot_of(r));
       check_standing(r, {&robot.start, &robot.marks, "start"});
       for (const FleetCharger& charger : fleet_.chargers) check_charger(r, charger);
     }

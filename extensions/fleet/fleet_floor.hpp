@@ -24,9 +24,9 @@ struct FleetFloor {
 };
 
 /// Reads a fleet's files and checks all of it that needs no plan. Throws ConfigError at the key: a robot
-/// without battery, limits, or uncertainty and margin; a battery below its reserve; a station where a robot
-/// that needs it cannot stand, or that it cannot reach; a mission that no robot may carry; a charger that is
-/// weaker than a robot's standby.
+/// without battery, limits, or both model_energy and margin; a battery below its reserve; a station where a
+/// robot that needs it cannot stand, or that it cannot reach; a mission that no robot may carry; a charger
+/// that is weaker than a robot's standby.
 [[nodiscard]] FleetFloor read_fleet_floor(Fleet fleet, const ReadOptions& options = {});
 
 /// Whether a robot may drive a mission: it is named, and every payload is within its limit.

@@ -54,7 +54,7 @@ struct Fleet {
   std::string name{};
   MissionRequest floor{};  ///< map, masks, route graph, clearance and stations
   std::optional<double>
-      energy_margin{};  ///< relative 1-sigma of the energy where a robot file has no uncertainty
+      energy_margin{};  ///< the error of the energy model where a robot file states no model_energy
   double payload_band_kg{};
   std::vector<FleetRobot> robots{};
   std::vector<FleetCharger> chargers{};

@@ -45,7 +45,7 @@ Schema fleet_schema() {
       optional("schema", text(), "joulepath/fleet/1"),
       optional("name", text()),
       optional("energy_margin", number(kFraction),
-               "relative 1-sigma of a leg's energy for robots whose file states no uncertainty"),
+               "relative 1-sigma of the energy for robots whose file states no model_energy"),
       optional("payload_band_kg", number(kPositive), "payloads are rounded up to multiples; default 5"),
       required("robots", list(fleet_robot_schema(), 1)),
       optional("chargers", list(fleet_charger_schema())),

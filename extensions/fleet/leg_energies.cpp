@@ -35,10 +35,9 @@ MissionRequest leg_mission(const FleetFloor& floor, const LegQuestion& leg) {
 }
 
 /// 1-sigma of a leg's energy as a share of it.
-double relative_sigma(const Fleet& fleet, const Plan& plan) {
+double relative_sigma(const Plan& plan) {
   const double energy_J = plan.energy.total_J();
-  if (plan.energy_sigma_J && energy_J > 0) return *plan.energy_sigma_J / energy_J;
-  return fleet.energy_margin.value_or(0.0);
+  return plan.energy_sigma_J && energy_J > 0 ? *plan.energy_sigma_J / energy_J : 0.0;
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -97,14 +96,19 @@ Json floor_json(const MissionRequest& floor) {
 
 }  // namespace
 
+Plan leg_plan(const FleetFloor& floor, const LegQuestion& leg, const SharedAnswers& answers) {
+  const FleetType& type = floor.types[leg.type];
+  const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .answers = answers};
+  Plan plan = plan_mission(leg_mission(floor, leg), type.world, options, type.space.get());
+  if (plan.status > SolveStatus::feasible) refuse_leg(floor, leg, plan.message);
+  return plan;
+}
+
 std::vector<LegPoint> leg_points(const FleetFloor& floor, const LegQuestion& leg,
                                  const SharedAnswers& answers) {
   if (leg.from == leg.to) return {LegPoint{}};
-  const FleetType& type = floor.types[leg.type];
-  const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .answers = answers};
-  const Plan plan = plan_mission(leg_mission(floor, leg), type.world, options, type.space.get());
-  if (plan.status > SolveStatus::feasible) refuse_leg(floor, leg, plan.message);
-  const double share = relative_sigma(floor.fleet, plan);
+  const Plan plan = leg_plan(floor, leg, answers);
+  const double share = relative_sigma(plan);
   const FrontPoint rest = rest_of(plan);
   std::vector<LegPoint> points;
   const Front front = energy_time_front(planned_stretches(plan), kFrontPoints, planned_price_W(plan));

@@ -5,6 +5,7 @@
 
 #include "extensions/fleet/fleet_floor.hpp"
 #include "planner/cache/answer_cache.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 
@@ -23,9 +24,13 @@ struct LegPoint {
   double sigma_J{};   ///< 1-sigma of the energy; errors of one robot's legs are correlated
 };
 
+/// The leg as the mission planner drives it when time is free. Throws ConfigError where it cannot be driven:
+/// at the key of the station.
+[[nodiscard]] Plan leg_plan(const FleetFloor& floor, const LegQuestion& leg, const SharedAnswers& answers);
+
 /// Energies of a leg at some points of its front, from the cheapest to the quickest; one point of nothing
 /// where it ends at its start. Points are from a front of kFrontPoints: its cheapest, its middle and its
-/// quickest. Throws ConfigError where the leg cannot be driven: at the key of the station.
+/// quickest. Throws as `leg_plan`.
 [[nodiscard]] std::vector<LegPoint> leg_points(const FleetFloor& floor, const LegQuestion& leg,
                                                const SharedAnswers& answers);
 

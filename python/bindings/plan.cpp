@@ -4,7 +4,9 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "python/bindings/errors.hpp"
 #include "python/bindings/robot.hpp"
 #include "python/bindings/stop.hpp"
+#include "scenarios/export/exports.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/mission_source.hpp"
 #include "scenarios/mission_files/path_file.hpp"
@@ -104,6 +107,18 @@ void bind_path(nb::module_& module) {
   module.def("load_path", &load_path, nb::arg("file"));
 }
 
+/// The files of an export: name and content; those of the requested format first.
+std::vector<std::pair<std::string, std::string>> exported(const PlanValue& self, const std::string& format,
+                                                          const std::string& out_file) {
+  const auto& [mission, world, plan, valid, trajectory, json] = self.results;
+  const Plant plant = make_plant(world.robot);
+  const auto named = std::ranges::find(export_formats(), format, &ExportFormat::name);
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const ExportFile& file : named->write({mission, world, plan, plant, out_file}).files)
+    files.emplace_back(file.name, file.content);
+  return files;
+}
+
 void bind_plan_value(nb::module_& module) {
   nb::class_<PlanValue>(module, "PlanValue", "A plan with its output files.")
       .def_prop_ro("status",
@@ -126,6 +141,8 @@ void bind_plan_value(nb::module_& module) {
           nb::arg("times_s"), "The plan at ascending times, exact at each.")
       .def(
           "profile_text", [](const PlanValue& self) { return self.results.profile_text(); }, "profile.csv")
+      .def("exported", &exported, nb::arg("format"), nb::arg("out_file"),
+           "(name, content) of the files that `joulepath export --to FORMAT` writes.")
       .def(
           "report", [](const PlanValue& self) { return self.results.report(); }, "report.html");
 }

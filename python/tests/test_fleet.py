@@ -1,6 +1,7 @@
 """Fleets: laws of the plan, on seeded fleets; judged by code that shares nothing with the model (benchmarks/fleet)."""
 import dataclasses
 import json
+import math
 import pathlib
 import random
 import subprocess
@@ -18,12 +19,14 @@ import judge  # noqa: E402
 from joulepath import fleet  # noqa: E402
 from joulepath.fleet._alone import sets_of  # noqa: E402
 from joulepath.fleet._bound import Limits, bound  # noqa: E402
-from joulepath.fleet._model import solve  # noqa: E402
+from joulepath.fleet._solve import solve  # noqa: E402
+from joulepath.fleet._floor import Floor, moves_of  # noqa: E402
+from joulepath.fleet._hidden import energy_factor  # noqa: E402
 from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E402
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
 from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
 from joulepath.fleet._search import improve, search  # noqa: E402
-from joulepath.fleet._simulate import simulate  # noqa: E402
+from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
 GOOD = pathlib.Path(__file__).resolve().parents[2] / "tests/data/broken/good/fleet.yaml"
@@ -245,11 +248,70 @@ def test_an_infeasible_fleet_names_the_mission_and_what_helps(tmp_path):
     assert fleet.plan(tmp_path / "helped.yaml", cache=False, workers=1).status == "optimal"
 
 
-def test_bad_input_is_one_line_and_leaves_nothing(tmp_path):
-    broken = GOOD.parent.parent / "fleet/same_name.yaml"
+@pytest.mark.parametrize(("name", "place"), [
+    ("nobody_reaches_it", "12:37: missions[0].stops[0].station"), ("too_heavy", "12:56: missions[0].stops[0].payload_kg"),
+    ("charger_in_a_rack", "10:22: chargers[0].station"), ("window_ends_first", "12:98: missions[0].due_s"),
+    ("below_reserve", "8:73: robots[0].battery_fraction"), ("same_name", "9:12: robots[1].name"), ("no_margin", "7:22: robots[0].robot")])
+def test_bad_input_is_one_line_with_file_line_and_key_and_leaves_nothing(tmp_path, name, place):
+    broken = GOOD.parent.parent / f"fleet/{name}.yaml"
     run = subprocess.run([sys.executable, "-m", "joulepath", "fleet", str(broken), "--out", str(tmp_path / "out")], capture_output=True, text=True)
     assert run.returncode == 2 and not (tmp_path / "out").exists()
-    assert "same_name.yaml:9:12" in run.stderr and run.stderr.count("\n") == 1
+    assert f"{name}.yaml:{place}: found " in run.stderr and run.stderr.count("\n") == 1
+
+
+@pytest.fixture(scope="module")
+def planned():
+    return fleet.plan(GOOD, cache=False, workers=1)
+
+
+def test_an_order_is_what_the_program_exports(planned, tmp_path):
+    planned.save(tmp_path / "out")
+    order = json.loads((tmp_path / "out/missions/parts/order.json").read_text())
+    assert order["orderId"] == "parts" and order["serialNumber"] in ("a", "b")
+    assert [node["nodeId"] for node in order["nodes"]][::len(order["nodes"]) - 1] == ["shelf", "dock"]
+    assert all(edge["maximumSpeed"] > 0 for edge in order["edges"])
+    driven = jp.plan(tmp_path / "out/missions/parts/order.json", robot=GOOD.parent / "robot.yaml", solver="fast", baselines=False)
+    first = json.loads((tmp_path / "out/missions/parts/plan.json").read_text())
+    assert sum(leg.distance_m for leg in driven.legs) == pytest.approx(sum(leg["distance_m"] for leg in first["legs"]), rel=1e-3)
+
+
+def test_the_playback_moves_robots_between_their_places(planned):
+    moves = moves_of(planned._source, planned.json)
+    floor, stations = Floor(planned._source.map_picture), planned._source.content["floor"]["stations"]
+    places = {name: floor.at(place["x_m"], place["y_m"]) for name, place in stations.items()}
+    for robot, line in zip(moves["robots"], planned.json["robots"]):
+        assert [(begin, end) for begin, end, _ in robot["moves"]] == sorted((begin, end) for begin, end, _ in robot["moves"])
+        at, last_s = robot["start"], line["timeline"][-1]["to_s"] if line["timeline"] else 0
+        for begin, end, track in robot["moves"]:
+            assert 0 <= begin < end <= last_s
+            assert moves["tracks"][track][0][1:] == pytest.approx(at, abs=0.2)
+            at = moves["tracks"][track][-1][1:]
+            assert min(math.dist(at, place) for place in places.values()) < 0.2
+
+
+def test_a_picture_has_the_cells_of_the_map(planned):
+    width, height, _, _, runs = planned._source.map_picture
+    assert sum(count for _, count in runs) == width * height
+    assert Floor(planned._source.map_picture).png().startswith("data:image/png;base64,")
+
+
+def test_more_friction_takes_more_energy_and_the_rule_keeps_the_reserve(planned):
+    assert 1.0 < energy_factor(planned._source, planned.schedule, most_driven(planned.schedule)) < 1.1
+    problem = generator.queue(3, 50_000)
+    found = solve(problem, workers=1)[1]
+    hidden = simulate(problem, found, 400, seed=2, factor={r: 1.2 for r in range(3)})
+    ruled = simulate(problem, found, 400, seed=2, factor={r: 1.2 for r in range(3)}, charge_now=True)
+    assert ruled.breaches < hidden.breaches and ruled.late_s >= hidden.late_s
+    assert planned.simulate(20, seed=3) == planned.simulate(20, seed=3)
+    assert planned.json["executions"][0]["runs"] == 20
+
+
+def test_a_late_mission_says_how_its_robot_spent_the_time(tmp_path):
+    text = GOOD.read_text().replace("map: map.yaml", f"map: {GOOD.parent / 'map.yaml'}").replace("robot: robot.yaml", f"robot: {GOOD.parent / 'robot.yaml'}")
+    (tmp_path / "fleet.yaml").write_text(text.replace("ready_s: 30, due_s: 600", "ready_s: 30, due_s: 31"))
+    mission = fleet.plan(tmp_path / "fleet.yaml", workers=1).json["missions"][0]
+    assert mission["late_s"] == mission["to_s"] - 31
+    assert mission["why"] == f"it takes {mission['to_s'] - mission['from_s']} s, and its window has 1 s"
 
 
 def test_a_schedule_that_is_not_proven_states_its_own_cost():

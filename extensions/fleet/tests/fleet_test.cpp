@@ -1,6 +1,7 @@
 // The files of tests/data/broken/fleet hold the mistakes of fleet files; here are the energies of their legs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "extensions/fleet/fleet_file.hpp"
@@ -28,6 +29,12 @@ TEST(LegEnergies, AQuickerPointTakesMoreEnergy) {
     EXPECT_GT(points[k].motion_J, points[k - 1].motion_J);
   }
   for (const LegPoint& point : points) EXPECT_GT(point.sigma_J, 0.0);
+}
+
+TEST(LegEnergies, TheMarginIsTheModelsErrorBesideThatOfTheConstants) {
+  const LegPoint cheapest = leg("dock", "shelf", 0.0).front();
+  EXPECT_GT(cheapest.sigma_J, 0.05 * cheapest.motion_J);                     // energy_margin: 0.05
+  EXPECT_LT(cheapest.sigma_J, std::hypot(0.05, 0.015) * cheapest.motion_J);  // friction_torque_Nm: 0.015
 }
 
 TEST(LegEnergies, APayloadTakesMoreEnergy) {

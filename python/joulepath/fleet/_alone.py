@@ -51,8 +51,8 @@ def sets_of(problem: Problem, most: int, limits: Limits) -> Sets | None:
         return None
     rest, tables = _rest(limits), {}  # type: tuple[Array, dict[Any, Array]]
     costs = []
-    for r, robot in enumerate(problem.robots):
-        key = (robot.type, robot.start, robot.level, robot.from_s, robot.to_s, robot.use_price, *(r in m.robots for m in problem.missions))
+    for r in range(len(problem.robots)):
+        key = problem.likeness(r)
         if key not in tables:
             table = _Robot(problem, r, most, rest).table()
             if table is None:

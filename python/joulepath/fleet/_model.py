@@ -6,15 +6,15 @@ A visit of a charger belongs to the node after which it happens. Levels of batte
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from ortools.sat.python import cp_model
 
-from ._alone import Sets, sets_of
+from ._alone import sets_of
 from ._bound import Limits
-from ._problem import NEVER, Drive, Problem, Schedule, Step, Visit
-from ._routes import account
+from ._charging import add_chargers
+from ._cuts import add_cuts, add_sets
+from ._problem import Drive, Problem
 
 
 class Node:
@@ -23,6 +23,7 @@ class Node:
     def __init__(self, index: int, place: str, end: Any, level: Any) -> None:
         self.index, self.place, self.end, self.level = index, place, end, level
         self.visits: dict[tuple[int, int], Any] = {}  # type, charger -> literal
+        self.begin = self.charge = self.done = self.arrives = self.target = None  # type: Any  # of a visit
 
 
 class FleetModel:
@@ -35,7 +36,7 @@ class FleetModel:
         self.horizon = min(problem.horizon_s(), max(x.from_s for x in problem.robots) + self.limits.present_s + 1)
         self.robots, self.missions = range(len(problem.robots)), range(len(problem.missions))
         self.most = max(kind.capacity for kind in problem.types)
-        self.equals = [(a, b) for group in _groups(problem) for a, b in zip(group, group[1:])]
+        self.equals = [(a, b) for group in problem.equals() for a, b in zip(group, group[1:])]
         self.cost: list[Any] = []
         self.busy_s: list[Any] = []  # durations of everything that robots do
         self.spent: list[Any] = []  # upper bounds of their energies
@@ -52,13 +53,13 @@ class FleetModel:
                 if node.index != len(self.robots) + j:
                     self._add_ways(node, j)
         self._add_ends()
-        self._add_chargers()
+        add_chargers(self)
         self.model.add_circuit(self.arcs)
-        self._add_cuts()
+        add_cuts(self)
         sets, self.low = None if most is None else sets_of(problem, most, self.limits), self.limits.low
         if sets is not None:
             self.low = max(self.low, sets.bound)
-            self._add_sets(sets)
+            add_sets(self, sets)
         if most is not None:
             self.model.add(sum(self.cost) <= most)
         self.model.minimize(sum(self.cost))
@@ -126,11 +127,11 @@ class FleetModel:
 
     def _add_visit(self, node: Node) -> None:
         m, i = self.model, node.index
-        node.begin = m.new_int_var(0, self.horizon, f"begin{i}")  # type: ignore[attr-defined]
-        node.charge = m.new_int_var(0, self.horizon, f"charge{i}")  # type: ignore[attr-defined]
-        node.done = m.new_int_var(0, self.horizon, f"done{i}")  # type: ignore[attr-defined]
-        node.arrives = m.new_int_var(0, self.most, f"arrives{i}")  # type: ignore[attr-defined]
-        node.target = m.new_int_var(0, self.most, f"target{i}")  # type: ignore[attr-defined]
+        node.begin = m.new_int_var(0, self.horizon, f"begin{i}")
+        node.charge = m.new_int_var(0, self.horizon, f"charge{i}")
+        node.done = m.new_int_var(0, self.horizon, f"done{i}")
+        node.arrives = m.new_int_var(0, self.most, f"arrives{i}")
+        node.target = m.new_int_var(0, self.most, f"target{i}")
 
     def _add_ways(self, node: Node, j: int) -> None:
         """The ways from a node to a mission: direct at several speeds, or by a charger."""
@@ -149,9 +150,9 @@ class FleetModel:
                 if not self._possible(node, j, t, c, 0):
                     continue
                 literal = self._taken(literals, node, j, t, c, 0, way)
-                m.add(self.start[j] >= node.done + way.duration_s).only_enforce_if(literal)  # type: ignore[attr-defined]
-                m.add(self.level[j] <= node.target - way.upper  # type: ignore[attr-defined]
-                      - standby * (self.start[j] - node.done)).only_enforce_if(literal)  # type: ignore[attr-defined]
+                m.add(self.start[j] >= node.done + way.duration_s).only_enforce_if(literal)
+                m.add(self.level[j] <= node.target - way.upper
+                      - standby * (self.start[j] - node.done)).only_enforce_if(literal)
         if not literals:
             return
         arc = m.new_bool_var(f"arc{node.index}_{j}")
@@ -205,254 +206,6 @@ class FleetModel:
                     m.add_implication(last, self.assigned[j][r])
                     m.add(self.finish[r] >= self.nodes[count + j].end).only_enforce_if(self.assigned[j][r])
 
-    def _add_chargers(self) -> None:
-        p, m = self.problem, self.model
-        intervals: list[list[Any]] = [[] for _ in p.chargers]
-        for node in self.nodes:
-            present: list[Any] = []
-            for t in range(len(p.types)):
-                for c in range(len(p.chargers)):
-                    after = [v for (i, _, u, d, _), v in self.taken.items() if (i, u, d) == (node.index, t, c)]
-                    if not after:
-                        continue
-                    literal = m.new_bool_var(f"visit{node.index}_{t}_{c}")
-                    m.add(sum(after) == literal)
-                    node.visits[t, c] = literal
-                    present.append(literal)
-                    self._add_charge(node, t, c, literal)
-                    intervals[c].append(m.new_optional_interval_var(
-                        node.begin, node.charge, node.done, literal, f"charging{node.index}_{t}_{c}"))  # type: ignore[attr-defined]
-            self._add_gain(node, present)
-        for c, charger in enumerate(p.chargers):
-            fixed = [m.new_fixed_size_interval_var(a, b - a, "") for d, a, b in p.busy if d == c]
-            if charger.count == 1:
-                m.add_no_overlap(intervals[c] + fixed)
-            else:
-                m.add_cumulative(intervals[c] + fixed, [1] * len(intervals[c] + fixed), charger.count)
-
-    def _add_charge(self, node: Any, t: int, c: int, literal: Any) -> None:
-        """The charge curve: fast below the knee, slow above it."""
-        m, p, kind, charger = self.model, self.problem, self.problem.types[t], self.problem.chargers[c]
-        way = p.ways[t, node.place, charger.place][0]
-        self.cost.append(literal * way.motion)
-        self.busy_s.append(literal * way.duration_s)
-        self.spent.append(literal * way.upper)
-        m.add(node.begin >= node.end + way.duration_s).only_enforce_if(literal)
-        m.add(node.arrives <= node.level - way.upper - kind.standby * (node.begin - node.end)).only_enforce_if(literal)
-        m.add(node.arrives >= kind.reserve).only_enforce_if(literal)
-        m.add(node.target <= kind.capacity).only_enforce_if(literal)
-        m.add(node.target >= node.arrives).only_enforce_if(literal)
-        fast, slow, knee = charger.power - kind.standby, charger.taper - kind.standby, charger.knee(kind)
-        m.add(fast * node.charge >= node.target - node.arrives).only_enforce_if(literal)
-        if slow == fast or knee >= kind.capacity:
-            return
-        below = m.new_bool_var(f"below{node.index}_{t}_{c}")
-        m.add(node.arrives <= knee).only_enforce_if(below)
-        m.add(node.arrives >= knee).only_enforce_if(~below)
-        m.add(fast * slow * node.charge >= fast * (node.target - knee) + slow * (knee - node.arrives)).only_enforce_if(literal, below)
-        m.add(slow * node.charge >= node.target - node.arrives).only_enforce_if(literal, ~below)
-
-    def _add_gain(self, node: Any, present: list[Any]) -> None:
-        m = self.model
-        gain = m.new_int_var(0, self.most, f"gain{node.index}")
-        if not present:
-            m.add(gain == 0)
-        else:
-            none = m.new_bool_var(f"stays{node.index}")
-            m.add(sum(present) + none == 1)
-            m.add(gain == 0).only_enforce_if(none)
-            m.add(node.charge == 0).only_enforce_if(none)
-            m.add(gain <= node.target - node.arrives).only_enforce_if(~none)
-            fastest = max(c.power for c in self.problem.chargers) - min(kind.standby for kind in self.problem.types)
-            m.add(gain <= fastest * node.charge)
-            self.busy_s.append(node.charge)
-            self.bought.append(gain)
-            self.charging.append(node.charge)
-            # a charge is net of the standby, which the robot's whole time includes
-            self.gained.append(max(kind.standby for kind in self.problem.types) * node.charge)
-        self.gained.append(gain)
-
-    def _add_cuts(self) -> None:
-        """Follow from the rest, for the linear relaxation: robots' time and energy cover what they do."""
-        p, m = self.problem, self.model
-        present = [self.finish[r] - x.from_s for r, x in enumerate(p.robots)]
-        m.add(sum(present) >= sum(self.busy_s))
-        m.add(sum((x.level - p.kind(r).reserve) for r, x in enumerate(p.robots)) + sum(self.gained) >=
-              sum(self.spent) + sum(p.kind(r).standby * present[r] for r in self.robots))
-        for r in self.robots:
-            self._add_presence(r, present[r])
-        self._add_purchases(present)
-        self._add_order_of_equals()
-
-    def _mine(self, r: int) -> list[int]:
-        return [j for j in self.missions if r in self.assigned[j]]
-
-    def _add_presence(self, r: int, present: Any) -> None:
-        """A robot's time after each moment at which a mission can start first covers its missions from then on, with ways."""
-        p, m, t, mine = self.problem, self.model, self.problem.robots[r].type, self._mine(r)
-        own_s, way_s = {j: self._own_s(j, t) for j in mine}, {j: self.limits.way_to(j, t)[0] for j in mine}
-        for j in mine:
-            later = [k for k in mine if self.soonest[k] >= self.soonest[j]]
-            head_s = self.soonest[j] - p.robots[r].from_s - max(way_s[k] for k in later)  # the first of them has its way before
-            m.add(present >= head_s * self.assigned[j][r] + sum((own_s[k] + way_s[k]) * self.assigned[k][r] for k in later))
-        m.add_no_overlap([m.new_optional_fixed_size_interval_var(self.start[j] - way_s[j], way_s[j] + own_s[j], self.assigned[j][r], "")
-                          for j in mine])
-
-    def _add_purchases(self, present: list[Any]) -> None:
-        """What a robot spends beyond its battery it buys, in visits of its own."""
-        p, m = self.problem, self.model
-        visits = [sum(node.visits.values()) for node in self.nodes]
-        if not p.chargers or not any(node.visits for node in self.nodes):
-            return
-        bought, charging, own = [], [], []
-        for r, robot in enumerate(p.robots):
-            kind, mine, literal = p.kind(r), self._mine(r), m.new_bool_var(f"buys{r}")
-            own.append(m.new_int_var(0, len(mine) + 1, f"visits{r}"))
-            bought.append(m.new_int_var(0, kind.capacity * (len(mine) + 1), f"bought{r}"))
-            charging.append(m.new_int_var(0, self.horizon, f"charging{r}"))
-            m.add(own[r] >= literal)
-            m.add(own[r] <= (len(mine) + 1) * literal)
-            m.add(charging[r] <= self.horizon * literal)
-            m.add(bought[r] <= (kind.capacity - kind.reserve) * own[r])
-            m.add(bought[r] <= (max(c.power for c in p.chargers) - kind.standby) * charging[r])
-            least = {j: (min(d.upper for d in p.missions[j].drives[robot.type]), *self.limits.way_to(j, robot.type)) for j in mine}
-            m.add(robot.level - kind.reserve + bought[r] >= kind.standby * (present[r] - charging[r]) +
-                  sum((mission + way) * self.assigned[j][r] for j, (mission, _, way) in least.items()))
-            m.add(present[r] >= charging[r] + sum((self._own_s(j, robot.type) + way_s) * self.assigned[j][r]
-                                                  for j, (_, way_s, _) in least.items()))
-        m.add(sum(bought) <= sum(self.bought))
-        m.add(sum(charging) <= sum(self.charging))
-        m.add(sum(own) <= sum(visits))
-
-    def _own_s(self, j: int, t: int) -> int:
-        return min(d.duration_s for d in self.problem.missions[j].drives[t])
-
-    def _add_sets(self, sets: Sets) -> None:
-        """Each robot drives one of the sets of missions that are left for it; all of them cost what they cost at least."""
-        m, prices = self.model, []
-        for r, costs in enumerate(sets.costs):
-            literals = {mask: m.new_bool_var(f"set{r}_{mask}") for mask in costs}
-            m.add_exactly_one(literals.values())
-            for j in self._mine(r):
-                m.add(sum(v for mask, v in literals.items() if mask >> j & 1) == self.assigned[j][r])
-            prices += [costs[mask] * v for mask, v in literals.items()]
-        m.add(sum(self.cost) >= sum(prices))
-        m.add(sum(self.cost) >= sets.bound)
-
-    def _add_order_of_equals(self) -> None:
-        """Of equal robots, the one with the first of their missions comes first."""
-        for first, second in self.equals:
-            for j in self.missions:
-                if second in self.assigned[j]:
-                    self.model.add(self.assigned[j][second] <= sum(self.assigned[i][first] for i in range(j) if first in self.assigned[i]))
-            self.model.add_implication(self.unused[first], self.unused[second])
-
-    def in_order(self, schedule: Schedule) -> Schedule:
-        """The schedule with the routes of equal robots in the model's order."""
-        routes = list(schedule.routes)
-        for group in _groups(self.problem):
-            for r, route in zip(group, sorted((routes[r] for r in group), key=lambda route: min((x.mission for x in route), default=NEVER))):
-                routes[r] = route
-        return replace(schedule, routes=tuple(routes))
-
-    def hint(self, schedule: Schedule) -> None:
-        """Starts the search at a schedule."""
-        m = self.model
-        for r, route in enumerate(self.in_order(schedule).routes):
-            m.add_hint(self.unused[r], not route)
-            node = self.nodes[r]
-            for step in route:
-                for other in self.robots:
-                    if other in self.assigned[step.mission]:
-                        m.add_hint(self.assigned[step.mission][other], other == r)
-                for (i, j, t, c, k), literal in self.taken.items():
-                    if j == step.mission:
-                        at = step.visit.charger if step.visit else -1
-                        m.add_hint(literal, (i, t, c, k) == (node.index, self.problem.robots[r].type, at, step.way))
-                for (t, k), literal in self.speed[step.mission].items():
-                    m.add_hint(literal, (t, k) == (self.problem.robots[r].type, step.speed))
-                m.add_hint(self.start[step.mission], step.start_s)
-                if step.visit:
-                    for variable, value in ((node.begin, step.visit.from_s), (node.done, step.visit.to_s),  # type: ignore[attr-defined]
-                                            (node.charge, step.visit.to_s - step.visit.from_s),  # type: ignore[attr-defined]
-                                            (node.target, step.visit.target)):  # type: ignore[attr-defined]
-                        m.add_hint(variable, value)
-                node = self.nodes[len(self.robots) + step.mission]
-
-    def schedule(self, solver: Any) -> Schedule:
-        """The routes of a solution."""
-        after: dict[int, tuple[int, Step]] = {}
-        for (i, j, t, c, k), literal in self.taken.items():
-            if not solver.boolean_value(literal):
-                continue
-            node: Any = self.nodes[i]
-            visit = None if c < 0 else Visit(c, solver.value(node.begin), solver.value(node.done), solver.value(node.target))
-            speed = next(s for (u, s), v in self.speed[j].items() if solver.boolean_value(v))
-            after[i] = (len(self.robots) + j, Step(j, k, speed, solver.value(self.start[j]), visit))
-        routes = []
-        for r in self.robots:
-            route, node_index = [], r
-            while node_index in after:
-                node_index, step = after[node_index]
-                route.append(step)
-            routes.append(tuple(route))
-        return Schedule(tuple(routes), round(solver.objective_value), round(solver.best_objective_bound))
-
-
-def _groups(problem: Problem) -> list[list[int]]:
-    """Equal robots."""
-    groups: dict[tuple[Any, ...], list[int]] = {}
-    for r, x in enumerate(problem.robots):
-        key = (x.type, x.start, x.level, x.from_s, x.to_s, x.use_price, tuple(r in m.robots for m in problem.missions))
-        groups.setdefault(key, []).append(r)
-    return list(groups.values())
-
-
 def _shortest(problem: Problem, m: int) -> int:
     """Duration of a mission at its quickest."""
     return min(d.duration_s for drives in problem.missions[m].drives.values() for d in drives)
-
-
-class _Progress(cp_model.CpSolverSolutionCallback):
-    def __init__(self, tell: Any, stop: Any) -> None:
-        super().__init__()
-        self._tell, self._stop = tell, stop
-
-    def on_solution_callback(self) -> None:
-        self._tell(round(self.objective_value), round(self.best_objective_bound))
-        if self._stop():
-            self.stop_search()
-
-
-def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 120.0, start: Schedule | None = None,
-          tell: Any = None, stop: Any = None, relative_gap: float = 0.0, takes_sigint: bool = True) -> tuple[str, Schedule | None]:
-    """The cheapest schedule: ``optimal``, ``feasible``, ``infeasible`` or ``unknown``, and the schedule.
-
-    ``limit``: deterministic time of CP-SAT, in its seconds. ``workers`` interleave, so that the same seed, workers and limit give the
-    same schedule. ``tell(cost, bound)`` is called for each better schedule; ``stop()`` ends the search; so does SIGINT with
-    ``takes_sigint``.
-    """
-    fleet = FleetModel(problem, None if start is None else start.cost)
-    if start is not None:
-        if fleet.low >= start.cost:
-            return "optimal", replace(start, bound=start.cost, proven=True)
-        fleet.hint(start)
-    solver = cp_model.CpSolver()
-    solver.parameters.random_seed = seed
-    solver.parameters.num_workers = workers
-    solver.parameters.interleave_search = workers > 1
-    solver.parameters.max_deterministic_time = limit
-    solver.parameters.relative_gap_limit = relative_gap
-    solver.parameters.catch_sigint_signal = takes_sigint
-    status = solver.solve(fleet.model, _Progress(tell or (lambda *_: None), stop or (lambda: False)))
-    if status == cp_model.INFEASIBLE:
-        return "infeasible", None
-    if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        return ("unknown", None) if start is None else ("feasible", replace(start, bound=fleet.low))
-    found = fleet.schedule(solver)
-    word = "optimal" if status == cp_model.OPTIMAL else "feasible"
-    cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
-    return word, Schedule(found.routes, cost, min(max(found.bound, fleet.low), cost), status == cp_model.OPTIMAL)
-
-
-__all__ = ["NEVER", "FleetModel", "solve"]

@@ -42,6 +42,7 @@ class Estimate:
                                d[0].duration_s - d[-1].duration_s, d[-1].motion - d[0].motion) for t, d in x.drives.items()}
                       for x in problem.missions]
         self.held = [x.level - problem.kind(r).reserve for r, x in enumerate(problem.robots)]
+        self.likeness = [x.likeness() for x in problem.robots]
         self.power = [max((c.power - kind.standby for c in problem.chargers), default=0) for kind in problem.types]
 
     def start(self, r: int) -> State:
@@ -146,12 +147,10 @@ def insert(estimate: Estimate, orders: list[list[int]], states: list[list[State]
     best, position, robot = math.inf, 0, estimate.problem.missions[m].robots[0]
     empty: set[tuple[object, ...]] = set()
     for r in estimate.problem.missions[m].robots:
-        x = estimate.problem.robots[r]
-        key = (x.type, x.start, x.level, x.from_s, x.to_s, x.use_price)
-        if not orders[r] and key in empty:
+        if not orders[r] and estimate.likeness[r] in empty:
             continue
         if not orders[r]:
-            empty.add(key)
+            empty.add(estimate.likeness[r])
         extra, n = estimate.insertion(r, orders[r], states[r], m, best, chance)
         if extra < best:
             best, position, robot = extra, n, r

@@ -14,7 +14,7 @@ from .._errors import refused
 from ..mapping import map as in_threads
 from ..plans import Plan
 from ..plans import plan as plan_mission
-from ._problem import UNITS_PER_J, Schedule
+from ._problem import NEVER, UNITS_PER_J, Schedule
 from ._report import report_html
 from ._timeline import timelines
 
@@ -32,7 +32,8 @@ def fleet_json(source: Any, status: str, schedule: Schedule | None, helps: list[
               for r, robot in enumerate(source.problem.robots)]
     return {**head, "cost_J": schedule.cost / UNITS_PER_J, "bound_J": schedule.bound / UNITS_PER_J,
             "gap_percent": round(100 * (1 - schedule.bound / schedule.cost), 4) if schedule.cost else 0.0,
-            "robots": robots, "missions": _missions(source, lines), "chargers": _chargers(source, lines)}
+            "robots": robots, "missions": _missions(source, lines), "chargers": _chargers(source, lines),
+            **({"executions": source.executions} if source.executions else {})}
 
 
 def _missions(source: Any, lines: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
@@ -40,17 +41,24 @@ def _missions(source: Any, lines: list[list[dict[str, Any]]]) -> list[dict[str, 
     for mission in source.problem.missions:
         r, item = next((r, x) for r, line in enumerate(lines) for x in line if x.get("mission") == mission.name)
         found.append({"name": mission.name, "robot": source.problem.robots[r].name, "from_s": item["from_s"], "to_s": item["to_s"],
-                      "late_s": item["late_s"], "why": _why(lines[r], item, mission) if item["late_s"] else ""})
+                      "due_s": None if mission.due_s >= NEVER else mission.due_s, "late_s": item["late_s"],
+                      "why": _why(source.problem.robots[r], lines[r], item, mission) if item["late_s"] else ""})
     return found
 
 
-def _why(line: list[dict[str, Any]], item: dict[str, Any], mission: Any) -> str:
-    """What came before a late mission, after it was ready."""
-    before = [x for x in line if x["to_s"] <= item["from_s"] and x["to_s"] > mission.ready_s]
-    shares = {does: sum(x["to_s"] - max(x["from_s"], mission.ready_s) for x in before if x["does"] == does)
-              for does in ("mission", "drive", "charge", "wait")}
-    told = [f"{seconds} s of {does}" for does, seconds in shares.items() if seconds > 0]
-    return "its robot did before: " + ", ".join(told) if told else "it takes longer than its window"
+def _why(robot: Any, line: list[dict[str, Any]], item: dict[str, Any], mission: Any) -> str:
+    """How its robot spent the time from the mission's ready time to its begin."""
+    needs_s = item["to_s"] - item["from_s"]
+    if mission.ready_s + needs_s > mission.due_s:
+        return f"it takes {needs_s} s, and its window has {mission.due_s - mission.ready_s} s"
+    told = [f"{robot.name} is available from {robot.from_s} s"] if robot.from_s > mission.ready_s else []
+    for x in line:
+        seconds = min(x["to_s"], item["from_s"]) - max(x["from_s"], mission.ready_s)
+        if seconds > 0:
+            what = {"mission": f"with {x.get('mission')}", "drive": f"on the way to {x.get('to')}",
+                    "charge": f"at the charger {x.get('at')}", "wait": f"waiting at {x.get('at')}"}[x["does"]]
+            told.append(f"{seconds} s {what}")
+    return f"ready at {mission.ready_s} s; since then {robot.name} was " + ", ".join(told)
 
 
 def _chargers(source: Any, lines: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
@@ -62,10 +70,10 @@ def _chargers(source: Any, lines: list[list[dict[str, Any]]]) -> list[dict[str, 
 
 
 def mission_of(source: Any, index: int, r: int, point: int) -> dict[str, Any] | None:
-    """The mission file of a driven mission; None: it has one stop, and no drive."""
+    """The mission file of a driven mission; None: it has one place, and no drive."""
     content, t = source.content["missions"][index], source.problem.robots[r].type
     legs = source.mission_legs(content, t)
-    if not legs:
+    if all(leg[1] == leg[2] for leg in legs):
         return None
     stops, floor = content["stops"], source.content["floor"]
     planned = []
@@ -79,25 +87,14 @@ def mission_of(source: Any, index: int, r: int, point: int) -> dict[str, Any] | 
             "start": {"station": stops[0]["station"]}, "legs": planned}
 
 
-def order_of(source: Any, index: int, robot: str) -> dict[str, Any]:
-    """A VDA 5050 order of a mission: its stops as nodes. The path between them is the robot's."""
-    content, floor = source.content["missions"][index], source.content["floor"]
-    map_id = FilePath(floor["map"]).stem
-    nodes: list[dict[str, Any]] = []
-    for k, stop in enumerate(content["stops"]):
-        place = floor["stations"][stop["station"]]
-        position = {"x": place["x_m"], "y": place["y_m"], "mapId": map_id}
-        if "heading_rad" in place:
-            position["theta"] = place["heading_rad"]
-        nodes.append({"nodeId": f"{stop['station']}_{k}", "sequenceId": 2 * k, "released": True, "nodePosition": position, "actions": []})
-    edges = [{"edgeId": f"{a['nodeId']}_{b['nodeId']}", "sequenceId": a["sequenceId"] + 1, "released": True,
-              "startNodeId": a["nodeId"], "endNodeId": b["nodeId"], "actions": []} for a, b in zip(nodes, nodes[1:])]
-    return {"headerId": index, "timestamp": "1970-01-01T00:00:00.000Z", "version": "2.0.0", "manufacturer": "joulepath",
-            "serialNumber": robot, "orderId": content["name"], "orderUpdateId": 0, "nodes": nodes, "edges": edges}
+def order_text(found: Plan, robot: str) -> str:
+    """The VDA 5050 order that `joulepath export` writes, for a robot."""
+    order = json.loads(found._value.exported("vda5050", "order.json")[0][1])
+    return _text({**order, "serialNumber": robot})
 
 
 def _mission_files(source: Any, schedule: Schedule) -> dict[str, str]:
-    """plan.json, trajectory.csv and order.json of each driven mission."""
+    """plan.json, trajectory.csv and order.json of each mission with a drive between its stops."""
     driven = [(step.mission, r, source.problem.missions[step.mission].drives[source.problem.robots[r].type][step.speed].point)
               for r, route in enumerate(schedule.routes) for step in route]
     files: dict[str, str] = {}
@@ -105,13 +102,13 @@ def _mission_files(source: Any, schedule: Schedule) -> dict[str, str]:
     jobs = [{"mission": text, "solver": "fast", "baselines": False} for text in texts if text is not None]
     plans = iter(in_threads(plan_mission, jobs))
     for (m, r, _), text in zip(driven, texts):
-        folder = "missions/" + re.sub(r"[^\w.-]", "_", source.problem.missions[m].name)
-        files[f"{folder}/order.json"] = _text(order_of(source, m, source.problem.robots[r].name))
         if text is None:
             continue
         found = next(plans)
         if not isinstance(found, Plan):
             raise found
+        folder = "missions/" + re.sub(r"[^\w.-]", "_", source.problem.missions[m].name)
+        files[f"{folder}/order.json"] = order_text(found, source.problem.robots[r].name)
         files[f"{folder}/plan.json"] = found._value.json
         files[f"{folder}/trajectory.csv"] = found.trajectory.text()
     return files

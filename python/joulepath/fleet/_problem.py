@@ -7,7 +7,7 @@ seconds and joules. Costs are mean energies, rounded to the nearest tenth.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 
 UNITS_PER_J = 10
 SIGMAS = 1.645  #: one-sided 95 % of a normal distribution
@@ -33,6 +33,10 @@ class Robot:
     from_s: int = 0
     to_s: int = NEVER
     use_price: int = 0
+
+    def likeness(self) -> tuple[object, ...]:
+        """All but its name."""
+        return astuple(self)[1:]
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,17 @@ class Problem:
 
     def kind(self, robot: int) -> RobotType:
         return self.types[self.robots[robot].type]
+
+    def likeness(self, robot: int) -> tuple[object, ...]:
+        """The same of robots that differ by their names alone, and by their numbers."""
+        return self.robots[robot].likeness() + tuple(robot in m.robots for m in self.missions)
+
+    def equals(self) -> list[list[int]]:
+        """Groups of equal robots."""
+        groups: dict[tuple[object, ...], list[int]] = {}
+        for r in range(len(self.robots)):
+            groups.setdefault(self.likeness(r), []).append(r)
+        return list(groups.values())
 
     def charge_s(self, charger: int, kind: RobotType, level: int, target: int) -> int:
         """Whole seconds, rounded up, of a charge from a level to a target. Standby is drawn meanwhile."""

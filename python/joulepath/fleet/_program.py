@@ -21,6 +21,7 @@ def main(words: list[str]) -> int:
     try:
         found = plan(line.fleet, seed=line.seed, workers=line.workers, limit=line.limit, cache=not line.no_cache,
                      tell=None if line.quiet else lambda text: print("  " + text, file=sys.stderr), stop=lambda: bool(stopped))
+        executions = found.simulate(line.simulate, seed=line.seed) if line.simulate else []
         if line.out:
             found.save(line.out, force=line.force)
     except (ConfigError, ImportError) as error:
@@ -32,10 +33,10 @@ def main(words: list[str]) -> int:
         print(f"{found.status}: {found.cost_J:.1f} J, bound {found.bound_J:.1f} J, gap {found.gap_percent:.2f} %"
               if found.schedule else f"infeasible: {found.json['reason']['says']}; what works: " +
               ("; ".join(h["says"] for h in found.help) or "nothing that was tried"))
-    if line.simulate and found.schedule:
+    if executions and not line.json and not line.quiet:
         from ._simulate import told
 
-        print(told(found.problem, found.schedule, line.simulate, line.seed))
+        print(told(executions))
     return DONE if found.schedule else NO_SCHEDULE
 
 

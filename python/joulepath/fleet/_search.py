@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ._bound import bound
-from ._model import solve
+from ._solve import solve
 from ._problem import UNITS_PER_J, Problem, Schedule, Step
 from ._orders import Neighborhood, inserted
 from ._routes import QUEUES_S, account, dispatched, drive_orders

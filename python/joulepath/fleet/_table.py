@@ -26,6 +26,7 @@ class FleetFile:
         """Reads the file and plans its legs. Raises ConfigError with file, line and key, before any leg is planned where it can."""
         self._value = _core.load_fleet(file_name("fleet", file), cache)
         self.reason: dict[str, Any] | None = None  #: why there is no schedule
+        self.executions: list[dict[str, Any]] = []
         self.content: dict[str, Any] = json.loads(self._value.json)
         legs = sorted(self._legs())
         self.table: dict[Leg, Points] = {}
@@ -38,6 +39,15 @@ class FleetFile:
             if progress:
                 progress(len(self.table), len(legs))
         self.problem = self._problem()
+
+    @property
+    def map_picture(self) -> Any:
+        """Width, height, resolution (m), pose of the lower left corner, runs of cells from the bottom row on."""
+        return self._value.map_picture
+
+    def track(self, leg: Leg) -> Points:
+        """(time s, x m, y m) of a leg's drive when time is free."""
+        return self._value.leg_track(*leg)
 
     def payload_kg(self, stop: dict[str, Any]) -> float:
         """A payload, rounded up to its band."""

@@ -53,7 +53,7 @@ def reason_of(source: Any, *, seed: int, workers: int, limit: float) -> dict[str
 
 def found(problem: Problem, *, seed: int, workers: int, limit: float) -> Schedule | None:
     """Any schedule."""
-    from ._model import solve
+    from ._solve import solve
 
     return solve(problem, seed=seed, workers=workers, limit=limit, relative_gap=1.0)[1]
 
