@@ -28,6 +28,8 @@ std::string kind_by_keys(const Node& root) {
                                   {"visit", "mission"},
                                   {"bezier_m", "path"},
                                   {"waypoints", "path"},
+                                  {"poses", "path"},
+                                  {"points", "path"},
                                   {"geometry", "robot"},
                                   {"motor", "robot"},
                                   {"inertia", "robot"}})

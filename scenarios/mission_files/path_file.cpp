@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "planner/path/shape/bezier_chain.hpp"
+#include "planner/path/shape/pose_path.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/motion_entry.hpp"
@@ -14,6 +15,8 @@
 
 namespace joulepath {
 namespace {
+
+constexpr double kUnitLength = 0.01;  ///< a quaternion's length may differ so much from 1
 
 /// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
 /// is p0).
@@ -57,6 +60,63 @@ std::vector<double> column_of(const CsvTable& table, const char* name, std::opti
   return cells;
 }
 
+double coordinate(const Node& point, const char* key) {
+  const Node value = point[key];
+  if (std::abs(value.number()) > kFarthest_m) value.fail("at most 1e6 m from the origin");
+  return value.number();
+}
+
+/// A pose of geometry_msgs (Pose, or PoseStamped with its pose inside), turned about the vertical axis.
+Pose pose_of(const Node& item) {
+  const Node pose = item.find("pose").value_or(item), q = pose["orientation"];
+  const double x = q["x"].number(), y = q["y"].number(), z = q["z"].number(), w = q["w"].number();
+  if (!(std::abs(std::hypot(std::hypot(x, y), std::hypot(z, w)) - 1) < kUnitLength))
+    q.fail("a quaternion of length 1");
+  return {coordinate(pose["position"], "x"), coordinate(pose["position"], "y"),
+          std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
+}
+
+/// The list of poses of nav_msgs/Path or PoseArray (`poses`), or of our own trajectories (`points`).
+std::optional<Node> poses_in(const Node& root) {
+  for (const char* key : {"poses", "points"})
+    if (const auto list = root.find(key); list && list->kind() == Value::Kind::list) return list;
+  return std::nullopt;
+}
+
+Path path_along(const Node& list, double tolerance_m) {
+  std::vector<Pose> poses;
+  for (const Node& item : list.items()) poses.push_back(pose_of(item));
+  if (poses.size() < 2) list.fail("two poses or more");
+  WaypointPath along = path_along_poses(poses, tolerance_m);
+  if (along.defect)
+    list.items()[along.defect->waypoint].fail_found(along.defect->found, along.defect->accepted);
+  return std::move(along.path);
+}
+
+[[noreturn]] void fail_at_row(const CsvTable& table, const WaypointDefect& defect) {
+  const int line = defect.waypoint < table.rows() ? table.line_of_row[defect.waypoint] : 1;
+  throw ConfigError(
+      {{table.file, line, 1}, defect.radius ? "corner_radius_m" : "x_m", defect.found, defect.accepted, ""});
+}
+
+/// By headings, corner radii or places alone, whichever columns there are.
+WaypointPath path_along(const CsvTable& table, double tolerance_m) {
+  const std::vector<double> x_m = column_of(table, "x_m"), y_m = column_of(table, "y_m");
+  std::vector<Point2> waypoints_m;
+  std::vector<Pose> poses;
+  for (std::size_t row = 0; row < x_m.size(); ++row) {
+    waypoints_m.push_back({x_m[row], y_m[row]});
+    poses.push_back({x_m[row], y_m[row], 0.0});
+  }
+  if (table.find("corner_radius_m") != nullptr)
+    return lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0));
+  if (table.find("heading_rad") == nullptr || poses.size() < 2)
+    return curve_through(waypoints_m, tolerance_m);
+  const std::vector<double> heading_rad = column_of(table, "heading_rad");
+  for (std::size_t row = 0; row < poses.size(); ++row) poses[row].heading_rad = heading_rad[row];
+  return path_along_poses(poses, tolerance_m);
+}
+
 }  // namespace
 
 Schema path_schema() {
@@ -75,7 +135,7 @@ bool is_path(const Document& document) {
   if (root.kind() != Value::Kind::map) return false;
   const auto line = root.find("schema");
   if (line && line->kind() == Value::Kind::scalar) return line->text().rfind("joulepath/path/", 0) == 0;
-  return root.has("bezier_m") || root.has("waypoints");
+  return root.has("bezier_m") || root.has("waypoints") || poses_in(root).has_value();
 }
 
 bool is_waypoint_file(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
@@ -87,8 +147,9 @@ bool has_waypoints(const std::string& file) {
 }
 
 Path path_from(const Document& document, const ReadOptions& options, std::vector<std::string>* notes) {
-  check_document(document, "path", path_schema());
   const Node root = document.root();
+  if (const auto poses = poses_in(root)) return path_along(*poses, kWaypointTolerance_m);
+  check_document(document, "path", path_schema());
   if (const auto file = root.find("waypoints"))
     return read_waypoints(resolve_file(*file, options), root.number_or("tolerance_m", kWaypointTolerance_m),
                           NamedBy(*file));
@@ -108,24 +169,21 @@ Path path_from(const Document& document, const ReadOptions& options, std::vector
 }
 
 Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& named_by) {
+  if (!is_waypoint_file(file)) {
+    const Document document = Document::load(file, named_by);
+    const auto poses = poses_in(document.root());
+    if (!poses) document.root().fail("a CSV file with columns x_m and y_m, or a nav_msgs/Path");
+    return path_along(*poses, tolerance_m);
+  }
   const CsvTable table = read_csv(
       file,
-      [](const std::string& name) { return name == "x_m" || name == "y_m" || name == "corner_radius_m"; },
+      [](const std::string& name) {
+        return name == "x_m" || name == "y_m" || name == "corner_radius_m" || name == "heading_rad";
+      },
       named_by);
-  const std::vector<double> x_m = column_of(table, "x_m"), y_m = column_of(table, "y_m");
-  std::vector<Point2> waypoints_m;
-  for (std::size_t row = 0; row < x_m.size(); ++row) waypoints_m.push_back({x_m[row], y_m[row]});
-  const bool lines = table.find("corner_radius_m") != nullptr;
-  WaypointPath along = lines ? lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0))
-                             : curve_through(waypoints_m, tolerance_m);
-  if (!along.defect) return std::move(along.path);
-  const std::size_t row = along.defect->waypoint;
-  const int line = row < table.rows() ? table.line_of_row[row] : 1;
-  throw ConfigError({{file, line, 1},
-                     along.defect->radius ? "corner_radius_m" : "x_m",
-                     along.defect->found,
-                     along.defect->accepted,
-                     ""});
+  WaypointPath along = path_along(table, tolerance_m);
+  if (along.defect) fail_at_row(table, *along.defect);
+  return std::move(along.path);
 }
 
 }  // namespace joulepath

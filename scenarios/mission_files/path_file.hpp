@@ -10,7 +10,8 @@ namespace joulepath {
 /// `schema: joulepath/path/1`: a chain of cubic Bezier curves in the map frame, or a file of waypoints.
 [[nodiscard]] Schema path_schema();
 
-/// Whether a document is a path: by its schema line, or by `bezier_m` or `waypoints` at its top.
+/// Whether a document is a path: by its schema line, by `bezier_m` or `waypoints` at its top, or as a list of
+/// poses (nav_msgs/Path, PoseArray, the exports nav2_path and trajectory).
 [[nodiscard]] bool is_path(const Document& document);
 
 /// Whether a file is read as waypoints: by its extension, `.csv`.
@@ -25,9 +26,10 @@ namespace joulepath {
 [[nodiscard]] Path path_from(const Document& document, const ReadOptions& options = {},
                              std::vector<std::string>* notes = nullptr);
 
-/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature along them (curve_through), or, with
-/// a column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
-/// turn in place). Throws ConfigError at a row that cannot be driven.
+/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature along them (curve_through), with a
+/// column heading_rad a path along poses (path_along_poses), or, with a column corner_radius_m, straight
+/// lines whose corners are rounded with that smallest radius (0 or empty: turn in place). A file that is not
+/// CSV is read as a list of poses. Throws ConfigError at a row that cannot be driven.
 [[nodiscard]] Path read_waypoints(const std::string& file, double tolerance_m = kWaypointTolerance_m,
                                   const NamedBy& named_by = {});
 

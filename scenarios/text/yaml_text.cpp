@@ -108,9 +108,17 @@ std::string syntax_hint(const std::string& text, int line) {
   return "is a bracket, quote, comma or colon missing here or on the line above?";
 }
 
+/// Without the line `---` that ROS prints after each message.
+std::string without_end_line(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  const bool ends = last != std::string::npos && last >= 3 && text.compare(last - 3, 4, "\n---") == 0;
+  return ends ? text.substr(0, last - 2) : text;
+}
+
 }  // namespace
 
-Value read_yaml_text(const std::string& text, std::string_view file, int first_line) {
+Value read_yaml_text(const std::string& given, std::string_view file, int first_line) {
+  const std::string text = without_end_line(given);
   YamlEvents events(text, file, first_line);
   try {
     std::istringstream stream(text);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/path/geometry/nurbs.hpp"
 // Design: docs/decisions/0200-paths.md
@@ -15,6 +16,7 @@ constexpr double kShapeShare = 0.1;   ///< of the tolerance
 constexpr double kShared = 0.5;       ///< correlation of neighboring residuals from which they count as shape
 constexpr double kRoughness = 0.05;   ///< r: length, in spans, below which the penalty smooths
 constexpr double kPinned = 1e6;       ///< weight of the ends
+constexpr double kDirectionShape_rad = 0.0003;
 constexpr int kRounds = 60;
 constexpr std::size_t kOrder = 4;  // of a cubic
 
@@ -42,11 +44,27 @@ class Basis {
   const std::vector<double>& knots() const { return knots_; }
   double span_length(std::size_t span) const { return knots_[span + 4] - knots_[span + 3]; }
 
-  /// The four functions that are not zero on a span, at u, by the recursion of Cox and de Boor.
-  Weights at(std::size_t span, double u) const {
+  /// The four functions that are not zero on a span, at u.
+  Weights at(std::size_t span, double u) const { return functions(span, u, kOrder - 1); }
+
+  /// Their first derivatives.
+  Weights derivatives(std::size_t span, double u) const {
+    const std::size_t k = span + 3;
+    const Weights below = functions(span, u, kOrder - 2);
+    Weights slopes{};
+    for (std::size_t j = 0; j + 1 < kOrder; ++j) {
+      const double slope = (kOrder - 1) / (knots_[k + 1 + j] - knots_[k + j - 2]) * below[j];
+      slopes[j] -= slope;
+      slopes[j + 1] += slope;
+    }
+    return slopes;
+  }
+
+  /// The functions of a degree up to 3 that are not zero on a span, by the recursion of Cox and de Boor.
+  Weights functions(std::size_t span, double u, std::size_t up_to) const {
     const std::size_t k = span + 3;
     Weights n{1.0};
-    for (std::size_t degree = 1; degree < kOrder; ++degree) {
+    for (std::size_t degree = 1; degree <= up_to; ++degree) {
       double saved = 0.0;
       for (std::size_t j = 0; j < degree; ++j) {
         const double right = knots_[k + j + 1] - u, left = u - knots_[k + j + 1 - degree];
@@ -128,14 +146,17 @@ class NormalEquations {
 /// A fit over spans whose ends are among the points.
 class Fit {
  public:
-  Fit(const std::vector<Point2>& points_m, const std::vector<double>& u, const std::vector<std::size_t>& ends)
-      : points_(points_m), u_(u), ends_(ends), basis_(values_at(ends)) {
+  Fit(const std::vector<Point2>& points_m, const std::vector<Point2>& directions,
+      const std::vector<double>& u, const std::vector<std::size_t>& ends)
+      : points_(points_m), directions_(directions), u_(u), ends_(ends), basis_(values_at(ends)) {
     NormalEquations equations(basis_.size());
     for (std::size_t span = 0; span < basis_.spans(); ++span) {
       for_points_of(span, [&](std::size_t i) {
         const bool end = i == 0 || i + 1 == points_.size();
         const double weight = end ? kPinned * u_.back() : 0.5 * (u_[i + 1] - u_[i - 1]);
         equations.add(span, basis_.at(span, u_[i]), weight, points_[i]);
+        if (!directions_.empty())
+          equations.add(span, basis_.derivatives(span, u_[i]), weight, directions_[i]);
       });
       const double h = basis_.span_length(span);
       equations.add(span, basis_.third_derivatives(span), std::pow(kRoughness * h, 6) * h, {0.0, 0.0});
@@ -143,6 +164,9 @@ class Fit {
     control_ = std::move(equations).solved();
     control_.front() = points_.front();
     control_.back() = points_.back();
+    if (directions_.empty()) return;
+    put_on_line(control_[1], control_.front(), directions_.front());
+    put_on_line(control_[control_.size() - 2], control_.back(), directions_.back());
   }
 
   /// The spans, halved where they miss the tolerance; unchanged ends if none does.
@@ -192,6 +216,11 @@ class Fit {
     return values;
   }
 
+  static void put_on_line(Point2& point, const Point2& through, const Point2& direction) {
+    const double along = (point[0] - through[0]) * direction[0] + (point[1] - through[1]) * direction[1];
+    for (std::size_t axis = 0; axis < 2; ++axis) point[axis] = through[axis] + along * direction[axis];
+  }
+
   template <class Visit>
   void for_points_of(std::size_t span, const Visit& visit) const {
     const bool last = span + 1 == basis_.spans();
@@ -206,7 +235,29 @@ class Fit {
     return off;
   }
 
+  /// Angle from the given direction at a point to the spline's, as its sine.
+  double turned_off(std::size_t span, std::size_t i) const {
+    const Weights n = basis_.derivatives(span, u_[i]);
+    Point2 slope{};
+    for (std::size_t k = 0; k < kOrder; ++k)
+      for (std::size_t axis = 0; axis < 2; ++axis) slope[axis] += n[k] * control_[span + k][axis];
+    return (directions_[i][0] * slope[1] - directions_[i][1] * slope[0]) / std::hypot(slope[0], slope[1]);
+  }
+
+  bool misses_direction(std::size_t span) const {
+    if (directions_.empty()) return false;
+    double largest = 0, squares = 0, products = 0, before = 0;
+    for_points_of(span, [&](std::size_t i) {
+      const double off = turned_off(span, i);
+      largest = std::max(largest, std::abs(off));
+      squares += off * off;
+      products += off * std::exchange(before, off);
+    });
+    return largest > kDirectionShape_rad && products > kShared * squares;
+  }
+
   bool misses(std::size_t span, double tolerance_m) const {
+    if (misses_direction(span)) return true;
     double largest2 = 0, squares = 0, products = 0;
     Point2 before{};
     for_points_of(span, [&](std::size_t i) {
@@ -230,7 +281,7 @@ class Fit {
     return std::clamp(from + static_cast<std::size_t>(at - first), from + 1, to - 1);
   }
 
-  const std::vector<Point2>& points_;
+  const std::vector<Point2>&points_, &directions_;
   const std::vector<double>& u_;
   const std::vector<std::size_t>& ends_;
   Basis basis_;
@@ -247,16 +298,17 @@ std::vector<std::size_t> first_ends(const std::vector<double>& u) {
 
 }  // namespace
 
-SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m) {
+SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m,
+                                 const std::vector<Point2>& directions) {
   const std::vector<double> u = parameters(points_m);
   std::vector<std::size_t> ends = first_ends(u);
   for (int round = 0; round < kRounds; ++round) {
-    Fit fit(points_m, u, ends);
+    Fit fit(points_m, directions, u, ends);
     std::vector<std::size_t> finer = fit.halved(tolerance_m);
     if (finer.size() == ends.size()) return fit.spline();
     ends = std::move(finer);
   }
-  return Fit(points_m, u, ends).spline();
+  return Fit(points_m, directions, u, ends).spline();
 }
 
 }  // namespace joulepath

@@ -29,6 +29,11 @@ struct SmoothingSpline {
 /// tenth of the tolerance with correlated residuals of neighboring points: that is shape, not noise.
 /// `deviation_m` is above the tolerance only if no spline through every point exists. Requires two points or
 /// more; neighbors must differ.
-[[nodiscard]] SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m);
+///
+/// `directions`: empty, or the unit vector of the motion at each point. Then the squares of dx/du less the
+/// direction, times 1 m^2, join the sum, a span is also halved while its direction is more than 0.3 mrad off
+/// with correlated residuals, and the spline has the first and the last direction exactly.
+[[nodiscard]] SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m,
+                                               const std::vector<Point2>& directions = {});
 
 }  // namespace joulepath

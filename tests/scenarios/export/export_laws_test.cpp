@@ -9,8 +9,11 @@
 #include <sstream>
 
 #include "planner/path/geometry/path.hpp"
+#include "scenarios/any_file.hpp"
 #include "scenarios/export/exports.hpp"
+#include "scenarios/mission_files/path_file.hpp"
 #include "tests/scenarios/export/lopsided_plan.hpp"
+#include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath::testing {
 namespace {
@@ -38,6 +41,23 @@ TEST(ExportLaws, APathHasThePlansPoses) {
     const auto at = std::lower_bound(times_s.begin(), times_s.end(), stamp_s(pose) - 1e-6);
     ASSERT_NE(at, times_s.end());
     expect_planned_pose(pose["pose"], static_cast<std::size_t>(at - times_s.begin()));
+  }
+}
+
+/// Other programs' paths have the same form, so one of ours is read as any of them.
+TEST(ExportLaws, APathIsReadBackWithItsLengthTurnsAndEnds) {
+  const ScratchDirectory scratch;
+  const PlannedCurves& plan = lopsided_plan();
+  for (const Export& written :
+       {export_nav2_path(plan.input("p.json")), export_trajectory(plan.input("t.json"))}) {
+    const std::string file = scratch.write("p.json", written.files.at(0).content);
+    const Path path = path_from(Document::load(file));
+    EXPECT_NEAR(path.distance_m(), plan.plan.distance_m, 1e-3 * plan.plan.distance_m);
+    EXPECT_NEAR(path.start().heading_rad, lopsided_rows().heading_rad.front(), 1e-6);
+    EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad - lopsided_rows().heading_rad.back()), 0, 1e-6);
+    EXPECT_NEAR(path.end().x_m, lopsided_rows().position_x_m.back(), 1e-6);
+    EXPECT_EQ(read_any_file(file).kind, "path");
+    EXPECT_EQ(read_waypoints(file).distance_m(), path.distance_m());
   }
 }
 

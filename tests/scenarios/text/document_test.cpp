@@ -54,6 +54,7 @@ TEST(Document, ACommaDoesNotBecomeDocumentsWithoutEnd) {
     EXPECT_FALSE(refusal("a.yaml", text).empty()) << text;
   EXPECT_TRUE(holds(refusal("a.yaml", "a: 1\n---\nb: 2\n"), "a.yaml:2:1: found a second YAML document"));
   EXPECT_EQ(refusal("a.yaml", "---\na: 1\n...\n"), "");
+  EXPECT_EQ(refusal("a.yaml", "a: 1\n---\n"), "") << "a message of ROS";
   EXPECT_EQ(refusal("a.yaml", ""), "");
 }
 

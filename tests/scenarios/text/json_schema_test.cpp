@@ -107,8 +107,8 @@ TEST(JsonSchema, EveryKindIsAValidJsonObjectWithItsId) {
     const Json schema = Json::parse(json_schema(kind));
     EXPECT_EQ(schema["$id"], "joulepath/" + kind.name + "/1");
     EXPECT_EQ(schema["type"], "object");
-    EXPECT_EQ(schema["additionalProperties"].get<bool>(), results.contains(kind.name))
-        << "results may grow, inputs may not";
+    EXPECT_EQ(schema["additionalProperties"].get<bool>(), results.contains(kind.name) || kind.name == "map")
+        << "results may grow, inputs may not; Nav2's maps may have keys that Nav2 does not read";
   }
 }
 
