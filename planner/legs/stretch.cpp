@@ -52,6 +52,11 @@ Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
   return limits;
 }
 
+bool may_reverse(const Robot& robot, const LegRequest& leg) {
+  return leg.direction != LegDirection::forward &&
+         std::isfinite(limits_along(robot, leg.payload).reverse_speed_m_s);
+}
+
 std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,
                                     const std::vector<SpeedZone>& zones, const std::optional<SpeedMask>& mask,
                                     double speed_limit_m_s) {

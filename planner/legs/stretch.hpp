@@ -34,6 +34,9 @@ struct PlanOptions {
 /// with the battery's own greatest power.
 [[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
 
+/// Whether a leg may be driven backward: its direction allows it, and the robot states a reverse speed.
+[[nodiscard]] bool may_reverse(const Robot& robot, const LegRequest& leg);
+
 /// The speed caps of a piece that begins `offset_m` into its leg: the mission's zones on that leg, and the
 /// speed mask sampled along the curve (at half of its resolution, so that no cell is skipped).
 [[nodiscard]] std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,

@@ -116,9 +116,7 @@ LegStart MissionWays::after(std::size_t leg, const LegPath& path, const LegStart
 
 void MissionWays::check_direction(std::size_t leg) const {
   const LegRequest& asked = mission_.legs[leg];
-  if (asked.direction != LegDirection::reverse ||
-      std::isfinite(limits_along(world_.robot, asked.payload).reverse_speed_m_s))
-    return;
+  if (asked.direction != LegDirection::reverse || may_reverse(world_.robot, asked)) return;
   throw ConfigError({.mark = asked.marks.at("direction"),
                      .key = asked.marks.key_path("direction"),
                      .found = "reverse",

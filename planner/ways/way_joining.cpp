@@ -82,9 +82,8 @@ joint::DriveLaw RefinedRun::law_of(std::size_t k, int direction) const {
 
 bool RefinedRun::may_drive(std::size_t k, int direction) const {
   const LegRequest& asked = run_.contexts[k].mission.legs[run_.first + k];
-  if (direction > 0) return asked.direction != LegDirection::reverse;
-  return asked.direction != LegDirection::forward &&
-         std::isfinite(limits_along(run_.contexts[k].world.robot, asked.payload).reverse_speed_m_s);
+  return direction > 0 ? asked.direction != LegDirection::reverse
+                       : may_reverse(run_.contexts[k].world.robot, asked);
 }
 
 /// The drives along a route that the leg's direction allows.

@@ -186,10 +186,7 @@ std::vector<ChainChoice> RunChoice::choose_chain() {
 /// in reverse; empty where none may.
 std::vector<ChainChoice> RunChoice::ways_without_room() const {
   bool backward = false;
-  for (std::size_t k = 0; k < size(); ++k)
-    backward =
-        backward || (leg(k).direction != LegDirection::forward &&
-                     std::isfinite(limits_along(context(k).world.robot, leg(k).payload).reverse_speed_m_s));
+  for (std::size_t k = 0; k < size(); ++k) backward = backward || may_reverse(context(k).world.robot, leg(k));
   if (!backward) return {};
   ChainRequest roomy = request_;
   roomy.may_turn = {};
