@@ -65,12 +65,12 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
     sizes.of_names = {
         {label, probability, evidence_for(x.id.equations, x.id.explanations, label), sizes.greatest}};
     if (probability >= kLeastProbabilityOfConstant)
-      return {.verdict = Verdict::ambiguous, .named = {effect}, .sizes = std::move(sizes)};
+      return {.verdict = Verdict::ambiguous, .named = {effect}, .sizes = sizes};
   }
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +
                         ", further from its value than calibration errors",
-          .sizes = std::move(sizes)};
+          .sizes = sizes};
 }
 
 }  // namespace

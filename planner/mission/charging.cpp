@@ -172,7 +172,7 @@ class StopSearch {
     std::stable_sort(attempts.begin(), attempts.end(),
                      [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });
     for (Attempt& attempt : attempts) {
-      if (drives(attempt.plan)) return std::move(attempt);
+      if (drives(attempt.plan)) return std::optional(std::move(attempt));
       if (auto found = beyond(attempt, stops + 1)) return found;
     }
     return std::nullopt;
