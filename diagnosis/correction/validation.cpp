@@ -51,7 +51,8 @@ void withdraw(std::size_t member, const std::string& why, Validation& v) {
 }
 
 /// Fits the names, without companions of the others, without those whose size a fit cannot tell from 0 or
-/// that lie outside their range. The evidence for them stays: without any name left the gap is unexplained.
+/// that lie outside their range. The evidence for them stays: without any name left the gap is unexplained,
+/// unless an effect too small to count is the cause.
 void fit_what_can_be_told(const Examination& x, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
   std::string dropped;
@@ -69,6 +70,10 @@ void fit_what_can_be_told(const Examination& x, Validation& v) {
     v.fitted = fit_names(x, named);
   }
   if (dropped.empty() || !named.empty()) return;  // the verdict stays what the race says
+  if (v.judgment.unknowns.empty() && has_small_effect(x)) {
+    v.judgment.verdict = Verdict::no_gap;
+    return;
+  }
   v.judgment.verdict = Verdict::unexplained;
   if (v.judgment.unknowns.empty()) v.judgment.depends_on = dropped;
 }

@@ -27,16 +27,25 @@ std::string likeliest(const Names& names) {
   return ranking.empty() ? "no variable alone" : ranking.front().effect + ", which is not sure";
 }
 
+/// The evidence of the surest effect that is too small to count; none: 0.
+double evidence_of_small(const Examination& x) {
+  double most = 0;
+  for (const SmallEffect& small : x.id.below_materiality) most = std::max(most, small.evidence);
+  return most;
+}
+
 /// The calibration constant (its column) that is furthest beyond its uncertainty, where nothing else won, or
-/// where no law of the catalog changes it and it explains more than the best set does; none: -1.
+/// where no law of the catalog changes it and it explains more than the best set does; none: -1. A constant
+/// that explains less than an effect too small to count only stands in for it.
 int constant_that_wins(const Examination& x, bool nothing_won) {
   const BoxedFit nothing = fit_within_calibration(x.id);
   const double loss = solve(x.id.problem, {}, x.id.dispersion).loss;
   if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return -1;
   const int column = nothing.held.front();
+  const double score = score_of_constant(x.id, column);
+  if (score < evidence_of_small(x)) return -1;
   if (nothing_won) return column;
-  return effect_of_constant(x.id, column) < 0 && score_of_constant(x.id, column) > x.best().score ? column
-                                                                                                  : -1;
+  return effect_of_constant(x.id, column) < 0 && score > x.best().score ? column : -1;
 }
 
 /// What a calibration constant's deviation (its column) changes, over the materiality floor.
@@ -75,6 +84,12 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
 
 }  // namespace
 
+bool has_small_effect(const Examination& x) {
+  return std::ranges::any_of(x.id.below_materiality, [](const SmallEffect& small) {
+    return small.probability >= kLeastProbabilityNamed;
+  });
+}
+
 Judgment judge(const Examination& x, const Names& names) {
   if (x.runs.few)
     return {.notes = {"fewer than " + std::to_string(kLeastRunsToName) +
@@ -88,7 +103,7 @@ Judgment judge(const Examination& x, const Names& names) {
     return judge_constant(x, names, column);
   if (nothing_won) {
     judgment.verdict = Verdict::no_gap;
-    if (names.small_unknowns.empty() && names.something > kSurest) {
+    if (names.small_unknowns.empty() && !has_small_effect(x) && names.something > kSurest) {
       judgment.verdict = Verdict::unexplained;
       judgment.depends_on = "goes with " + likeliest(names);
     }

@@ -17,4 +17,8 @@ struct Judgment {
 /// The verdict that follows from what won the race.
 [[nodiscard]] Judgment judge(const Examination& examination, const Names& names);
 
+/// Whether an effect that is too small to count is sure enough to name it: it is listed, and is why something
+/// is seen.
+[[nodiscard]] bool has_small_effect(const Examination& x);
+
 }  // namespace joulepath

@@ -14,6 +14,7 @@
 #include "diagnosis/values/diagnosis.hpp"
 #include "diagnosis/where/gap.hpp"
 #include "model/simulation/simulate.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -305,6 +306,29 @@ TEST(NullDay, AnEffectBelowTheFloorIsNoVerdict) {
       diagnosed_day(300, {{.name = "coulomb_friction", .parameters = {{"torque_Nm", 0.0015}}}});
   EXPECT_EQ(answer.verdict, Verdict::no_gap);
   EXPECT_TRUE(answer.causes.empty());
+}
+
+/// However sure an effect is, below the floor it is listed: nothing else is said to be unexplained for it.
+TEST(NullDay, ASureEffectBelowTheFloorIsListedAndNothingStandsInForIt) {
+  const auto effect = [](const char* name, const char* key, double value) {
+    return EffectSetting{.name = name, .parameters = {{key, value}}};
+  };
+  for (const auto& [setting, robot_name] :
+       {std::pair{effect("torque_constant_error", "fraction", 0.02), "husky_a200"},
+        {effect("torque_constant_error", "fraction", 0.05), "husky_a200"},
+        {effect("torque_constant_error", "fraction", -0.03), "tug_600kg"},
+        {effect("winding_resistance_error", "fraction", 0.05), "husky_a200"}}) {
+    Dataset day{
+        .robot = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/" + std::string(robot_name) + ".yaml")};
+    for (const Drive& drive : drives())
+      for (joulepath::Run& run : logs_of(drive, day.robot, 8, 77, {setting}))
+        day.runs.push_back(std::move(run));
+    const Diagnosis answer = diagnose(day);
+    const bool right = answer.verdict == Verdict::no_gap ||
+                       (!answer.causes.empty() && answer.causes.front().effect.name == setting.name);
+    EXPECT_TRUE(right) << setting.name << " " << robot_name << ": " << verdict_name(answer.verdict) << " "
+                       << answer.leftover_description;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, NullRows, ::testing::ValuesIn(drives()));
