@@ -1,6 +1,6 @@
 """Measures the planner of fleets on seeded fleets with energies of a made-up floor.
 
-measure.py OUT HEAD [--short] [--minutes CPU] [--evrptw FOLDER]. With a budget of CPU minutes each part ends when its share is used up
+measure.py OUT HEAD [--short] [--minutes CPU] [--limit S] [--evrptw FOLDER]. With a budget of CPU minutes each part ends when its share is used up
 and states how many fleets it had. Exit code 1 where a schedule breaks a rule, or brute force, the queue or the order of visits disagrees.
 """
 
@@ -195,6 +195,8 @@ def published(files: Iterable[pathlib.Path], limit: float) -> list[str]:
 def main() -> None:
     line = arguments()
     effort, budget = SHORT if line.short else FULL, Budget(line.minutes)
+    if line.limit:
+        effort = effort._replace(proof_limit=line.limit, large_limit=line.limit)
     far = large(budget.of("large", range(effort.large)), effort.large_limit)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     rows = [proofs("`tight`, 4 x 12 x 2: three speeds, narrow windows", generator.tight, budget.of("tight", range(100, 100 + effort.tight)),
@@ -222,6 +224,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("head")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--minutes", type=float, default=NONE)
+    parser.add_argument("--limit", type=float, default=0.0, help="deterministic time of a search, instead of the form's")
     parser.add_argument("--evrptw", help="folder with the texts of the instances, which are not in this repository")
     return parser.parse_args()
 

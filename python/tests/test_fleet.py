@@ -24,6 +24,7 @@ from joulepath.fleet._floor import Floor, moves_of  # noqa: E402
 from joulepath.fleet._hidden import energy_factor  # noqa: E402
 from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E402
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
+from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
 from joulepath.fleet._search import improve, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
@@ -87,6 +88,28 @@ def test_a_known_cost_loses_no_schedule_that_is_as_cheap(seed):
             assert limits.speed(step.mission, problem.robots[r].type, step.speed)
     again = solve(problem, workers=1, start=found)
     assert again[0] == "optimal" and again[1].cost == found.cost
+
+
+RELAXED = [(generator.small, seed, SMALL) for seed in range(4)] + [
+    (generator.tight, seed, {"robots": 2, "missions": 4, "chargers": 1}) for seed in range(6)]
+
+
+@pytest.mark.parametrize(("made", "seed", "size"), RELAXED)
+def test_routes_at_prices_bound_every_schedule_at_any_number_of_rounds(made, seed, size):
+    problem = made(seed, **size)
+    found = solve(problem, workers=1)[1]
+    if found is not None:
+        assert all(relaxed_bound(problem, found.cost + more, rounds) <= found.cost for rounds in (1, 7, 40) for more in (0, 50_000))
+
+
+def test_routes_at_prices_bound_waiting_and_use_that_the_assignment_leaves_out():
+    """One robot, one mission that is ready late: the bound is the cost, but for rounding to steps of time."""
+    problem = dataclasses.replace(generator.queue(1, 0), chargers=())
+    mission = dataclasses.replace(problem.missions[0], ready_s=1000, due_s=1100, late_price=1000)
+    late = dataclasses.replace(problem, missions=(mission,), robots=(dataclasses.replace(problem.robots[0], use_price=7_000, level=10**6),))
+    cost = least(late)
+    assert bound(late) <= cost - 90_000  # standby of the wait
+    assert cost - 1_100 <= relaxed_bound(late, cost, 60) <= cost
 
 
 def test_the_extra_cost_of_an_insertion_is_that_of_the_longer_order():

@@ -10,6 +10,7 @@ from dataclasses import replace
 from ._bound import bound
 from ._solve import solve
 from ._problem import UNITS_PER_J, Problem, Schedule, Step
+from ._relaxed import relaxed_bound
 from ._orders import Neighborhood, inserted
 from ._routes import QUEUES_S, account, dispatched, drive_orders
 
@@ -17,6 +18,7 @@ SMALL = 16  #: missions of one constraint program
 ROUNDS = 400  #: reinsertions before it
 ROUNDS_PER_S = 30  #: reinsertions per second of the limit, which three quarters of it are for
 WARM, COLD = 3e-3, 1e-4  #: dearer schedules that the reinsertions go on from, relative, at their begin and end
+BOUND_ROUNDS, BOUND_ROUNDS_PER_S = 60, 1 / 3  #: of the relaxation: for few missions, and per second of the limit for many
 REPAIR = 0.5  #: deterministic time of one repair
 Tell = Callable[[str], None]
 Stop = Callable[[], bool]
@@ -40,9 +42,18 @@ def search(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 
                              tell=lambda cost, low: say(_line(cost, low)))
         if best is None and start is not None:
             status, best = "feasible", start
-        return status, best if best is None else replace(best, bound=max(best.bound, bound(problem)))
-    low, best = bound(problem), improve(problem, start, seed=seed, workers=workers, limit=limit, tell=say, stop=ended)
-    return ("optimal" if best.cost <= low else "feasible"), replace(best, bound=min(low, best.cost), proven=best.cost <= low)
+        return (status, best) if best is None or best.proven else _bounded(problem, best, BOUND_ROUNDS, ended)
+    best = improve(problem, start, seed=seed, workers=workers, limit=limit, tell=say, stop=ended)
+    status, best = _bounded(problem, best, math.ceil(BOUND_ROUNDS_PER_S * limit), ended)
+    say(_line(best.cost, best.bound))
+    return status, best
+
+
+def _bounded(problem: Problem, best: Schedule, rounds: int, stop: Stop) -> tuple[str, Schedule]:
+    """A schedule with the best of its bounds, and whether that proves it."""
+    low = max(best.bound, bound(problem))
+    low = min(best.cost, max(low, relaxed_bound(problem, best.cost, rounds, stop) if low < best.cost else 0))
+    return ("optimal" if low >= best.cost else "feasible"), replace(best, bound=low, proven=low >= best.cost)
 
 
 def _line(cost: float, low: float) -> str:
