@@ -155,12 +155,19 @@ MonitorEvent Monitor::told(const CauseChange& change, double stated_kg) const {
                         .interval_95 = interval_95(payload_kg, sigma)};
 }
 
+/// The energy at a near place of the plan: what lies between there and here is as planned.
+double Monitor::executed_at_J(double planned_J) const {
+  return meter_.energy_J() + planned_J - progress_.energy_J();
+}
+
 LegExecuted Monitor::leg_executed() const {
+  const bool next = progress_.leg() != leg_;
+  const double planned_end_J = next ? progress_.leg_begin_J(progress_.leg()) : progress_.energy_J();
   LegExecuted leg{.time_s = last_s_,
                   .leg = leg_,
-                  .executed_J = meter_.energy_J() - leg_begin_J_,
-                  .planned_J = progress_.energy_J() - leg_planned_begin_J_,
-                  .finished = progress_.leg() != leg_ || progress_.has_arrived()};
+                  .executed_J = executed_at_J(planned_end_J) - leg_begin_J_,
+                  .planned_J = planned_end_J - progress_.leg_begin_J(leg_),
+                  .finished = next || progress_.has_arrived()};
   const double sigma_J = leg_ < course_.legs.size() ? course_.legs[leg_].sigma_J : 0.0;
   const double allowed_J = std::hypot(kNormal95 * sigma_J, kLegTolerance * leg.planned_J);
   leg.deviates = meter_.measures() && std::abs(leg.executed_J - leg.planned_J) > allowed_J;
@@ -171,8 +178,7 @@ void Monitor::finish_legs() {
   if (progress_.leg() == leg_) return;
   events_.emplace_back(leg_executed());
   leg_ = progress_.leg();
-  leg_begin_J_ = meter_.energy_J();
-  leg_planned_begin_J_ = progress_.energy_J();
+  leg_begin_J_ = executed_at_J(progress_.leg_begin_J(leg_));
 }
 
 MonitorStatus Monitor::status() const {

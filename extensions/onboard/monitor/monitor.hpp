@@ -98,6 +98,7 @@ class Monitor {
   [[nodiscard]] bool is_usable(const MonitorRow& row);
   [[nodiscard]] bool is_on_the_clock(double time_s);
   [[nodiscard]] MonitorEvent told(const CauseChange& change, double stated_kg) const;
+  [[nodiscard]] double executed_at_J(double planned_J) const;
   void finish_legs();
 
   Robot robot_;
@@ -116,7 +117,7 @@ class Monitor {
   double doubtful_s_{kAbsent};  ///< log time of the last row that was on another clock
   double last_s_{kAbsent}, last_rim_m_s_{}, next_status_s_{kAbsent}, period_s_{kAbsent}, stated_kg_{};
   std::size_t leg_{};
-  double leg_begin_J_{}, leg_planned_begin_J_{};
+  double leg_begin_J_{};
 };
 
 }  // namespace joulepath

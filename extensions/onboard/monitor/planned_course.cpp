@@ -7,6 +7,8 @@ namespace joulepath {
 namespace {
 
 constexpr double kRest_m_s = 1e-3;     ///< at the rim
+constexpr double kFlicker_m = 1e-3;    ///< travel between two samples at rest that is a tick of the encoder
+constexpr double kLeaves_m = 0.02;     ///< travel from a stop that was made
 constexpr double kStanding_s = 0.5;    ///< before a standstill counts as a stop
 constexpr double kStopWithin_m = 0.3;  ///< of a stop of the plan
 constexpr double kStopWithin = 0.05;   ///< of the travel since the last stop
@@ -50,11 +52,16 @@ void CourseProgress::advance(double step_s, double rim_speed_m_s) {
   const std::vector<double>& travel = course_->travel_m;
   travel_m_ += step_s * rim_speed_m_s;
   since_stop_m_ += step_s * rim_speed_m_s;
-  if (rim_speed_m_s > kRest_m_s) {
+  since_rest_m_ = rim_speed_m_s > kRest_m_s ? since_rest_m_ + step_s * rim_speed_m_s : 0.0;
+  if (since_rest_m_ > kFlicker_m) {
     standing_s_ = rest_clock_s_ = 0;
-    // A stop is passed when the robot is surely beyond it: its odometry may read more than the plan's travel.
-    while (index_ + 1 < travel.size() && travel[index_ + 1] + (waits() ? stop_within_m() : 0.0) <= travel_m_)
+    // A stop is passed when the robot is surely beyond it: its odometry may read more than the plan's travel,
+    // unless it has been seen to stand there.
+    const double margin_m = made_stop_ ? kLeaves_m : stop_within_m();
+    while (index_ + 1 < travel.size() && travel[index_ + 1] + (waits() ? margin_m : 0.0) <= travel_m_) {
+      made_stop_ = made_stop_ && waits();
       ++index_;
+    }
     return;
   }
   const bool new_stop = standing_s_ < kStanding_s && standing_s_ + step_s >= kStanding_s;
@@ -91,6 +98,14 @@ void CourseProgress::snap_to_stop() {
   index_ = std::max(index_, *nearest);
   travel_m_ = course_->travel_m[index_];
   since_stop_m_ = 0;
+  made_stop_ = true;
+}
+
+double CourseProgress::leg_begin_J(std::size_t leg) const {
+  const auto first = std::ranges::find(course_->leg, leg);
+  return first == course_->leg.end()
+             ? course_->energy_J.back()
+             : course_->energy_J[static_cast<std::size_t>(first - course_->leg.begin())];
 }
 
 double CourseProgress::at(const std::vector<double>& values) const {

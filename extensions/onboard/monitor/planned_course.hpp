@@ -43,6 +43,7 @@ class CourseProgress {
   void advance(double step_s, double rim_speed_m_s);
 
   [[nodiscard]] double energy_J() const { return at(course_->energy_J); }
+  [[nodiscard]] double leg_begin_J(std::size_t leg) const;  ///< planned up to there
   [[nodiscard]] double payload_kg() const { return course_->payload_kg[index_]; }
   [[nodiscard]] std::size_t leg() const { return course_->leg[index_]; }
   [[nodiscard]] double time_s() const { return at(course_->time_s); }
@@ -59,7 +60,8 @@ class CourseProgress {
   const PlannedCourse* course_;
   std::vector<std::size_t> stops_{};  ///< first sample of each
   std::size_t index_{};
-  double travel_m_{}, since_stop_m_{}, standing_s_{}, rest_clock_s_{};
+  double travel_m_{}, since_stop_m_{}, since_rest_m_{}, standing_s_{}, rest_clock_s_{};
+  bool made_stop_{};  ///< the robot has stood at the plan's present stop
 };
 
 }  // namespace joulepath

@@ -248,6 +248,41 @@ TEST(CourseProgress, AStopIsWaitedForWhateverTheOdometry) {
   }
 }
 
+/// Drives, dwells of 4 s and turns on the spot, a leg each: a leg ends where the plan ends it, also where
+/// ticks of the encoders flicker at rest and whatever the odometry.
+TEST(CourseProgress, LegsEndWhereThePlanEndsThem) {
+  const auto rim_m_s = [](double t) {
+    return t < 10 ? 1.0 : t < 14 ? 0.0 : t < 20 ? 0.15 : t < 24 ? 0.0 : 0.5;
+  };
+  const auto leg_at = [](double t) { return t < 14 ? 0 : t < 24 ? 1 : 2; };
+  PlannedCourse course;
+  for (int k = 0; k <= 1700; ++k) {
+    const double t = 0.02 * k;
+    course.travel_m.push_back(k == 0 ? 0 : course.travel_m.back() + 0.02 * rim_m_s(t - 0.01));
+    course.time_s.push_back(t);
+    course.energy_J.push_back(10 * t);
+    course.payload_kg.push_back(0);
+    course.leg.push_back(static_cast<std::size_t>(leg_at(t)));
+  }
+  for (const double step_s : {0.005, 0.02, 0.1})
+    for (const double scale : {0.99, 1.0, 1.01})
+      for (const double tick_m : {0.0, 3e-4}) {
+        CourseProgress progress(course);
+        for (int k = 1; k * step_s < 33; ++k) {
+          const double t = k * step_s, planned = rim_m_s(t - 0.5 * step_s);
+          const bool ticks = planned == 0 && k % 5 == 0;
+          progress.advance(step_s, ticks ? tick_m / step_s : scale * planned);
+          const double next_s = t < 14 ? 14 : t < 24 ? 24 : 100, last_s = t < 14 ? 0 : t < 24 ? 14 : 24;
+          if (t > last_s + 0.5 && t < next_s - 0.5) {
+            ASSERT_EQ(progress.leg(), static_cast<std::size_t>(leg_at(t)))
+                << t << " s, step " << step_s << ", scale " << scale << ", tick " << tick_m;
+          }
+        }
+        EXPECT_NEAR(progress.leg_begin_J(1), 140, 1e-9);
+        EXPECT_NEAR(progress.leg_begin_J(2), 240, 1e-9);
+      }
+}
+
 TEST(Monitor, ExecutedIsPlannedWhereNothingIsHidden) {
   const Day quiet = day(10);
   Monitor monitor(nomad(), course_of(quiet), {});
