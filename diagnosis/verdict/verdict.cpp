@@ -71,10 +71,11 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
     const double probability = probability_of(names, effect);
     if (probability >= kLeastProbabilityNamed)
       return {.verdict = Verdict::explained, .named = {effect}, .sizes = {.greatest = kBeyondCalibration}};
-    sizes.of_names = {
-        {label, probability, evidence_for(x.id.equations, x.id.explanations, label), sizes.greatest}};
-    if (probability >= kLeastProbabilityOfConstant)
+    if (probability >= kLeastProbabilityOfConstant) {
+      sizes.of_names = {
+          {label, probability, evidence_for(x.id.equations, x.id.explanations, label), sizes.greatest}};
       return {.verdict = Verdict::ambiguous, .named = {effect}, .sizes = sizes};
+    }
   }
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +

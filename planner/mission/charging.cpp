@@ -10,7 +10,8 @@ namespace joulepath {
 namespace {
 
 constexpr int kMostStops = 12;
-constexpr int kMostPlans = 60;  ///< tried; a search without a limit grows with the power of the stops
+constexpr int kMostPlans = 60;   ///< tried; a search without a limit grows with the power of the stops
+constexpr int kMostRefined = 6;  ///< plans with refined paths, where none of the unrefined ones drives
 /// A stop is tried before the leg that fails and before this many legs ahead of it, and at so many places
 /// farther ahead that the estimate calls cheaper than all of these. Only where none of them helps, it is
 /// tried at the others.
@@ -139,7 +140,8 @@ std::pair<bool, double> rank(const Plan& plan) {
 /// Adds stops until the battery suffices, and goes back where that leads nowhere.
 class StopSearch {
  public:
-  StopSearch(const Plant& plant, const PlanLegs& plan_legs) : plant_(plant), plan_legs_(plan_legs) {}
+  StopSearch(const Plant& plant, const PlanLegs& plan_legs, std::optional<int> most_plans = {})
+      : plant_(plant), plan_legs_(plan_legs), budget_(most_plans) {}
 
   /// A mission with more stops than `from` that drives; nothing where none is found.
   std::optional<Attempt> beyond(const Attempt& from, int stops) {
@@ -186,11 +188,15 @@ class StopSearch {
 }  // namespace
 
 Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
-                       const PlanLegs& plan_unrefined, const PlanLegs& plan_legs) {
+                       const PlanLegs& plan_legs, const PlanLegs& plan_refined) {
   if (!mission.charging || !touches_reserve(failed)) return failed;
-  if (const auto found = StopSearch(plant, plan_unrefined).beyond({mission, failed}, 0))
-    if (Plan plan = plan_legs(found->mission); drives(plan)) return plan;
-  if (auto found = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) return std::move(found->plan);
+  if (auto found = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) {
+    if (!plan_refined) return std::move(found->plan);
+    if (Plan plan = plan_refined(found->mission); drives(plan)) return plan;
+  }
+  if (plan_refined)
+    if (auto found = StopSearch(plant, plan_refined, kMostRefined).beyond({mission, failed}, 0))
+      return std::move(found->plan);
   failed.message = failed.infeasibility->reason.message += "; no charging stop that was tried prevents it";
   return failed;
 }

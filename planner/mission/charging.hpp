@@ -13,11 +13,12 @@ using PlanLegs = std::function<Plan(const MissionRequest&)>;
 /// reserve. Each stop is inserted before the leg that would breach the reserve, up to two legs earlier, or
 /// where it is cheaper by estimate, at the charger that gives the mission the least energy; where none of
 /// these helps, still earlier, down to the mission's start. The robot charges up to the state of charge of
-/// `charging:`. Stops are compared by plans whose paths are not refined; the mission with the stops that win
-/// is then planned in full. Only where that fails, all stops are tried with full plans. `failed` is the full
-/// plan without these stops; it is returned, with a note, if no stop that is tried helps, and unchanged if
-/// chargers cannot remedy the failure.
+/// `charging:`. Stops are compared by `plan_legs`; the mission with the stops that win is then planned by
+/// `plan_refined`, where there is one: the same with paths that are refined, which take most of the time.
+/// Only where that fails, a few stops are tried with refined paths. `failed` is the plan without these stops;
+/// it is returned, with a note, if no stop that is tried helps, and unchanged if chargers cannot remedy the
+/// failure.
 [[nodiscard]] Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
-                                     const PlanLegs& plan_unrefined, const PlanLegs& plan_legs);
+                                     const PlanLegs& plan_legs, const PlanLegs& plan_refined);
 
 }  // namespace joulepath

@@ -84,10 +84,13 @@ struct TimedLegs {
   PreparedLegs prepared{};
   TimeSplit split{};
 };
+/// `way_price_W`: the price at which ways are chosen, where it is not that of their times.
 TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
-                    const Plant& plant, const PlanOptions& options, Plan& plan) {
+                    const Plant& plant, const PlanOptions& options, std::optional<double> way_price_W,
+                    Plan& plan) {
   const double floor_W = lowest_price_W(mission.objective);
-  std::vector<double> price_W(mission.legs.size(), first_price_W(mission, world, plant));
+  std::vector<double> price_W(mission.legs.size(),
+                              way_price_W.value_or(first_price_W(mission, world, plant)));
   TimedLegs timed;
   const MissionWays ways(mission, world, space, plant, options);
   const auto choose = [&](bool quick) {
@@ -105,7 +108,7 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
     timed.split = share_time(timed.prepared, mission, plant, SolverChoice::fast);
     return true;
   };
-  for (int round = 0; space && round < kRounds; ++round) {
+  for (int round = 0; space && !way_price_W && round < kRounds; ++round) {
     if (!choose(true) || !share(true)) return timed;
     const bool converged = !moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
@@ -172,8 +175,9 @@ void mark_as_draft(Plan& plan) {
 
 /// Plans the legs as given, in their order; `plan` contains what is already known about the mission.
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
-                     const RouteSpace* space, const Plant& plant, Plan plan) {
-  TimedLegs timed = time_legs(mission, world, space, plant, options, plan);
+                     const RouteSpace* space, const Plant& plant, Plan plan,
+                     std::optional<double> way_price_W = {}) {
+  TimedLegs timed = time_legs(mission, world, space, plant, options, way_price_W, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   if (auto verdict = too_late(timed, mission))
     return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
@@ -234,11 +238,36 @@ std::optional<RouteSpace> route_space(const MissionRequest& mission, const Missi
 
 namespace {
 
+bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
+
+/// Whether the plan is the fastest one, or too late: where drafts of ways leave a jerk limit out, other ways
+/// may be faster.
+bool may_be_faster(const Plan& plan, const MissionRequest& mission, const MissionWorld& world) {
+  if (!world.robot.limits || std::isinf(world.robot.limits->jerk_m_s3)) return false;
+  if (is_driven(plan)) return mission.objective.minimize == Objective::Minimize::time;
+  const std::string constraint = plan.infeasibility ? plan.infeasibility->reason.constraint : "";
+  return constraint == "deadline" || constraint == "duration";
+}
+
+/// The faster one of a plan and of that on the ways of least energy.
+Plan or_on_ways_of_least_energy(Plan plan, const MissionRequest& mission, const MissionWorld& world,
+                                const PlanOptions& options, const RouteSpace* space, const Plant& plant,
+                                const Plan& known) {
+  if (space == nullptr || !may_be_faster(plan, mission, world)) return plan;
+  MissionRequest cheapest = mission;
+  cheapest.objective.minimize = Objective::Minimize::energy;
+  Plan other =
+      plan_given_legs(mission, world, options, space, plant, known, first_price_W(cheapest, world, plant));
+  const bool better = is_driven(other) && (!is_driven(plan) || other.duration_s < plan.duration_s);
+  return better ? other : plan;
+}
+
 /// Plans legs that are given, with ways that keep a leg's own duration, and with stops at chargers.
 Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, const Plan& known) {
   const auto plan_legs = [&](const MissionRequest& legs) {
-    Plan chosen = plan_given_legs(legs, world, options, space, plant, known);
+    Plan chosen = or_on_ways_of_least_energy(plan_given_legs(legs, world, options, space, plant, known), legs,
+                                             world, options, space, plant, known);
     if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
       return chosen;
     // Ways are chosen by energy. A way that cannot keep a leg's own duration is replaced by one with stops at
@@ -248,6 +277,7 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
     Plan other = plan_given_legs(legs, world, plain, space, plant, known);
     return other.status == SolveStatus::infeasible ? chosen : other;
   };
+  if (!options.steps.refinement) return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs, {});
   const auto plan_unrefined = [&](const MissionRequest& legs) {
     PlanOptions unrefined = options;
     unrefined.steps.refinement = false;

@@ -43,8 +43,8 @@ constexpr std::size_t kMostNodes = 4;
 constexpr std::size_t kManyNodes = 1000;
 /// Of Ipopt from the fast solver's solution: it takes a few, or hundreds that change nothing.
 constexpr int kPolishIterations = 30;
-/// A grid with more than this multiple of its first nodes settles no limit: the solve ends without a profile.
-constexpr std::size_t kMostCuts = 100;
+/// A grid with more than this multiple of its first nodes settles no limit: the solve ends there.
+constexpr std::size_t kMostGrowth = 100;
 constexpr int kGridHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
 constexpr const char* kFastestSolver = "forward_backward";
 
@@ -58,7 +58,7 @@ class ProfileSolver {
 
   ProfileResult solve() {
     grid_.s = nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000));
-    const std::size_t most_nodes = kMostCuts * grid_.s.size();
+    const std::size_t most_nodes = kMostGrowth * grid_.s.size();
     for (int round = 0; stage_ != Stage::done && round < kRounds && grid_.s.size() <= most_nodes;) {
       const Problem problem =
           nlp::transcribe(request_, motion_, grid_.s, grid_.tightenings, best_ ? &best_->profile : nullptr);

@@ -76,6 +76,23 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
   EXPECT_NEAR(plan.energy.total_J(), cost_J.back(), 0.01 * cost_J.back());
 }
 
+/// Drafts of ways leave the jerk limit out. Still the plan of least time is no slower than any other, and a
+/// deadline that a plan of least energy keeps is no reason for a refusal.
+TEST(Ways, NoPlanUnderAJerkLimitIsFasterThanTheFastest) {
+  for (const double jerk : {0.3, 0.7, 1.5}) {
+    Robot robot = testing::nomad();
+    robot.limits->jerk_m_s3 = jerk;
+    MissionRequest mission = round_of_three();
+    mission.legs.pop_back();
+    const Plan frugal = plan_of(mission, kCoarse, robot);
+    ASSERT_LE(frugal.status, SolveStatus::feasible) << frugal.message;
+    mission.objective.deadline_s = frugal.duration_s * (1 + 1e-6);
+    EXPECT_LE(plan_of(mission, kCoarse, robot).status, SolveStatus::feasible) << jerk;
+    mission.objective = {.minimize = Objective::Minimize::time};
+    EXPECT_LE(plan_of(mission, kCoarse, robot).duration_s, frugal.duration_s * (1 + 1e-6)) << jerk;
+  }
+}
+
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
   PlanOptions turning = kCoarse;
   turning.steps.refinement = false;  // refinement would replace turns by curves
@@ -223,6 +240,10 @@ TEST(Charging, AStopWithoutADetourIsTakenHoweverEarly) {
     ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
     ASSERT_EQ(plan.legs.size(), 6u);
     EXPECT_GT(plan.legs[0].charged_J, 0.0) << fails;
+    EXPECT_TRUE(std::ranges::any_of(plan.legs, [](const LegPlan& leg) {
+      return std::ranges::any_of(leg.improvements,
+                                 [](const auto& step) { return step.step == "refinement"; });
+    })) << "the plan with the stop has refined paths";
     EXPECT_LT(plan.energy.total_J(),
               enough.energy.total_J() + 1.05 * robot.power.standby_W * plan.legs[0].dwell_s);
   }
