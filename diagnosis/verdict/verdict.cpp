@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "diagnosis/evidence/boxed_fit.hpp"
+#include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/linear_fit.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/numerics/indices.hpp"
