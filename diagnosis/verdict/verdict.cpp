@@ -65,7 +65,6 @@ double size_of_constant(const Examination& x, int column) {
 /// deviation. The verdict is unexplained if the catalog has no such effect, or if the race gives it hardly
 /// any probability.
 Judgment judge_constant(const Examination& x, const Names& names, int column) {
-  Sizes sizes{.greatest = size_of_constant(x, column)};
   if (const int candidate = effect_of_constant(x.id, column); candidate >= 0) {
     const ActiveEffect effect{x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}};
     const std::string label = effect.candidate.label();
@@ -73,15 +72,17 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
     if (probability >= kLeastProbabilityNamed)
       return {.verdict = Verdict::explained, .named = {effect}, .sizes = {.greatest = kBeyondCalibration}};
     if (probability >= kLeastProbabilityOfConstant) {
-      sizes.of_names = {
-          {label, probability, evidence_for(x.id.equations, x.id.explanations, label), sizes.greatest}};
-      return {.verdict = Verdict::ambiguous, .named = {effect}, .sizes = sizes};
+      const double size = size_of_constant(x, column);
+      const double evidence = evidence_for(x.id.equations, x.id.explanations, label);
+      return {.verdict = Verdict::ambiguous,
+              .named = {effect},
+              .sizes = {.greatest = size, .of_names = {{label, probability, evidence, size}}}};
     }
   }
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +
                         ", further from its value than calibration errors",
-          .sizes = sizes};
+          .sizes = {.greatest = size_of_constant(x, column)}};
 }
 
 }  // namespace

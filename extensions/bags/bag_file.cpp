@@ -100,8 +100,7 @@ constexpr std::uint64_t kAlwaysMessages = 100'000;
 }  // namespace
 
 bool is_bag(const std::string& file) {
-  const fs::path extension = fs::path(file).extension();
-  return extension == ".mcap" || extension == ".db3" || is_folder(file) || message_reader_of(file);
+  return is_bag_name(file) || is_folder(file) || message_reader_of(file);
 }
 
 MessageDamage read_bag(const std::string& file, const NamedBy& named_by,
