@@ -53,10 +53,9 @@ Pose PathGeometry::pose(std::size_t piece, double share) const {
 }
 
 LocalPose PathGeometry::local(std::size_t piece, double share) const {
-  using Jet = LocalPose::Jet;
   const auto index = own(piece);
-  std::array<Jet, 3> x;
-  for (std::size_t i = 0; i < 3; ++i) x[i] = Jet::variable(i, (*parameters_)[index[i]]);
+  std::array<LocalPose::Jet, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = LocalPose::Jet::variable(i, (*parameters_)[index[i]]);
   const auto d = displacement(x[0], x[1], x[2], program_.half_track_m(), share);
   return {d.x, d.y, d.turn};
 }
