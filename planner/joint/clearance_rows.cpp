@@ -1,5 +1,7 @@
 #include "planner/joint/clearance_rows.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace joulepath::joint {
@@ -7,8 +9,12 @@ namespace {
 
 constexpr double kFar_m = 0.1 - 1e-9;                 ///< the slack is not followed beyond
 constexpr double kStep_m = 1e-4, kBendStep_m = 0.01;  ///< of differences
-constexpr double kActive = 1e-6;
+constexpr double kActive = 1e-6, kFlat = 1e-9;
 constexpr double kLeastSlack_m = 0.03;
+constexpr double kPart_m = 0.6, kMostParts = 24;
+constexpr double kOverlap = 0.25;  ///< of a part at each end
+constexpr double kLook_m = 0.1, kMostLooks = 24;
+constexpr double kLeastOpening_per_m = 0.1;
 
 Pose on_floor(const Pose& frame, const Pose& pose) {
   const double c = std::cos(frame.heading_rad), s = std::sin(frame.heading_rad);
@@ -18,14 +24,54 @@ Pose on_floor(const Pose& frame, const Pose& pose) {
 
 }  // namespace
 
-void ClearanceRows::lay_out() {
+void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
   if (!program_.checker) return;
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
-    const std::size_t count = program_.pieces[j].segments;
-    const bool last = j + 1 == program_.pieces.size();
-    for (std::size_t i = 1; i <= count - (last ? 1 : 0); ++i)
-      nodes_.push_back({j, static_cast<double>(i) / static_cast<double>(count), {}, {}});
+    const double count = std::clamp(std::ceil(parameters[program_.length_of(j)] / kPart_m), 1.0, kMostParts);
+    for (double i = 0; i < count; ++i)
+      parts_.push_back({j, (i - kOverlap) / count, (i + 1 + kOverlap) / count, {}, {}});
   }
+}
+
+/// A place on a piece, or beyond its ends on a neighbor without a rest between.
+ClearanceRows::Place ClearanceRows::place(const PathGeometry& geometry, std::size_t piece,
+                                          double share) const {
+  const auto beyond = [&](std::size_t neighbor, double part) {
+    return std::min(1.0, part * geometry.length_m(piece) / geometry.length_m(neighbor));
+  };
+  if (share < 0) {
+    const bool joined = piece > 0 && !program_.pieces[piece - 1].rests_after;
+    return joined ? Place{piece - 1, 1 - beyond(piece - 1, -share)} : Place{piece, 0};
+  }
+  if (share <= 1) return {piece, share};
+  const bool joined = piece + 1 < program_.pieces.size() && !program_.pieces[piece].rests_after;
+  return joined ? Place{piece + 1, beyond(piece + 1, share - 1)} : Place{piece, 1};
+}
+
+/// Looks every kLook_m, then at the vertex of the parabola through the least look and its neighbors.
+ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, const Part& part) const {
+  const double length_m = (part.to - part.from) * geometry.length_m(part.piece);
+  const int looks = static_cast<int>(std::clamp(std::ceil(length_m / kLook_m), 2.0, kMostLooks));
+  const double step = (part.to - part.from) / looks;
+  const auto look = [&](double share) {
+    const Place at = place(geometry, part.piece, share);
+    return Nearest{at, slack_m(geometry.near_pose(at.piece, at.share)), false};
+  };
+  std::array<double, static_cast<std::size_t>(kMostLooks) + 1> slacks{};
+  Nearest least{.slack_m = kNoLimit};
+  int k = 0;
+  for (int i = 0; i <= looks; ++i) {
+    const Nearest here = look(part.from + i * step);
+    slacks[i] = here.slack_m;
+    if (here.slack_m < least.slack_m) least = here, k = i;
+  }
+  if (k == 0 || k == looks || least.slack_m >= kFar_m - program_.margin_m) return least;
+  least.inside = true;
+  const double bend = slacks[k - 1] + slacks[k + 1] - 2 * slacks[k];
+  if (!(bend > 0)) return least;
+  Nearest vertex = look(part.from + step * (k + 0.5 * (slacks[k - 1] - slacks[k + 1]) / bend));
+  vertex.inside = true;
+  return vertex.slack_m < least.slack_m ? vertex : least;
 }
 
 double ClearanceRows::slack_m(const Pose& pose) const {
@@ -34,18 +80,18 @@ double ClearanceRows::slack_m(const Pose& pose) const {
 
 std::vector<double> ClearanceRows::values(const PathGeometry& geometry) const {
   std::vector<double> values;
-  for (const Node& node : nodes_) values.push_back(slack_m(geometry.pose(node.piece, node.share)));
+  for (const Part& part : parts_) values.push_back(nearest(geometry, part).slack_m);
   return values;
 }
 
 std::vector<double> ClearanceRows::present() const {
   std::vector<double> values;
-  for (const Node& node : nodes_) values.push_back(node.row.value);
+  for (const Part& part : parts_) values.push_back(part.row.value);
   return values;
 }
 
 void ClearanceRows::begin(const std::vector<double>& values, double mu) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].row.begin(values[i], kLeastSlack_m, mu);
+  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].row.begin(values[i], kLeastSlack_m, mu);
 }
 
 ClearanceRows::Slopes ClearanceRows::slopes(const Pose& pose, double here_m) const {
@@ -66,48 +112,62 @@ ClearanceRows::Slopes ClearanceRows::slopes(const Pose& pose, double here_m) con
   return slopes;
 }
 
-void ClearanceRows::add(Node& node, PathGeometry& geometry, double mu, const Blocks& blocks) {
-  const Pose pose = geometry.pose(node.piece, node.share);
-  const Slopes by = slopes(pose, node.row.value);
-  const LocalPose local = geometry.local(node.piece, node.share);
-  const auto places = geometry.gradient(node.piece, local);
-  node.gradient = by.x * places.col(0) + by.y * places.col(1) + by.heading * places.col(2);
-  const double z = node.row.z;
-  blocks.gradient -= node.row.push(mu) * node.gradient;
-  blocks.lagrangian -= z * node.gradient;
-  blocks.hessian.noalias() += node.row.stiffness() * node.gradient * node.gradient.transpose();
+void ClearanceRows::add(Part& part, const Nearest& at, PathGeometry& geometry, double mu,
+                        const Blocks& blocks) {
+  const Pose pose = geometry.near_pose(at.place.piece, at.place.share);
+  const Slopes by = slopes(pose, at.slack_m);
+  const LocalPose local = geometry.local(at.place.piece, at.place.share);
+  const auto places = geometry.gradient(part.piece, local);
+  part.gradient = by.x * places.col(0) + by.y * places.col(1) + by.heading * places.col(2);
+  const double z = part.row.z;
+  blocks.gradient -= part.row.push(mu) * part.gradient;
+  blocks.lagrangian -= z * part.gradient;
+  blocks.hessian.noalias() += part.row.stiffness() * part.gradient * part.gradient.transpose();
   if (z < kActive) return;
   const double size = std::max(1e-3, std::hypot(by.x, by.y));
   const Eigen::VectorXd across = (by.x * places.col(1) - by.y * places.col(0)) / size;
   blocks.hessian.noalias() -= z * by.bend * across * across.transpose();
-  geometry.add_curvature(node.piece, local, {-z * by.x, -z * by.y, -z * by.heading}, blocks.hessian);
+  geometry.add_curvature(at.place.piece, local, {-z * by.x, -z * by.y, -z * by.heading}, blocks.hessian);
+  if (!at.inside || !program_.checker->is_disc()) return;
+  // Along the path, d the distance, u the rate of its length, kappa its curvature, n = +-(its normal):
+  // d_f = 0,  d_ff = u^2 (bend +- kappa),  d_fp = u (bend t . x_p +- heading_p),  D2 min d = D2 d - d_fp
+  // d_fp' / d_ff.
+  const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
+  const double side = by.y * c - by.x * s > 0 ? 1.0 : -1.0;
+  const double turn = side * geometry.curvature_per_m(at.place.piece, at.place.share),
+               opening = by.bend + turn;
+  if (opening < kLeastOpening_per_m) return;
+  const Eigen::VectorXd slide = by.bend * (c * places.col(0) + s * places.col(1)) + side * places.col(2);
+  blocks.hessian.noalias() += z / opening * slide * slide.transpose();
 }
 
 ClearanceRows::Sums ClearanceRows::assemble(PathGeometry& geometry, double mu, const Blocks& blocks) {
   Sums sums;
-  for (Node& node : nodes_) {
-    node.row.value = slack_m(geometry.pose(node.piece, node.share));
-    node.gradient.resize(0);
-    if (node.row.value < kFar_m - program_.margin_m) add(node, geometry, mu, blocks);
-    sums.complementarity += node.row.s * node.row.z;
-    sums.primal += std::abs(node.row.residual()) * node.row.z;
+  for (Part& part : parts_) {
+    const Nearest at = nearest(geometry, part);
+    part.row.value = at.slack_m;
+    part.gradient.resize(0);
+    if (part.row.value < kFar_m - program_.margin_m) add(part, at, geometry, mu, blocks);
+    sums.lost |= part.row.value < 0 && part.gradient.lpNorm<Eigen::Infinity>() < kFlat;
+    sums.complementarity += part.row.s * part.row.z;
+    sums.primal += std::abs(part.row.residual()) * part.row.z;
   }
   return sums;
 }
 
 void ClearanceRows::step(const Eigen::VectorXd& change, double mu, StepLengths& lengths) {
-  for (Node& node : nodes_)
-    node.row.step(node.gradient.size() ? node.gradient.dot(change) : 0.0, mu, lengths);
+  for (Part& part : parts_)
+    part.row.step(part.gradient.size() ? part.gradient.dot(change) : 0.0, mu, lengths);
 }
 
 double ClearanceRows::merit(const std::vector<double>& values, double step, double mu) const {
   double sum = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) sum += nodes_[i].row.merit(step, values[i], mu, 1.0);
+  for (std::size_t i = 0; i < parts_.size(); ++i) sum += parts_[i].row.merit(step, values[i], mu, 1.0);
   return sum;
 }
 
 void ClearanceRows::take(const std::vector<double>& values, double primal, double dual, double mu) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].row.take(primal, dual, values[i], mu);
+  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].row.take(primal, dual, values[i], mu);
 }
 
 }  // namespace joulepath::joint

@@ -7,14 +7,15 @@
 
 namespace joulepath::joint {
 
-/// Clearance of the footprint at the nodes of a program: one inequality per node, its derivatives from those
-/// of the floor's distance.
+/// Clearance of the footprint along a program's pieces: one inequality per part of a piece, at the place of
+/// the part that has the least. Such a place moves with the path: the second derivatives know it, as rows at
+/// fixed places would hold the path to steps of their distance.
 class ClearanceRows {
  public:
   explicit ClearanceRows(const Program& program) : program_(program) {}
-  void lay_out();
+  void lay_out(const Eigen::VectorXd& parameters);
 
-  /// Slack (m) beyond the margin at each node, exact up to a tenth of a metre and never more.
+  /// Slack (m) beyond the margin of each part, exact up to a tenth of a metre and never more.
   [[nodiscard]] std::vector<double> values(const PathGeometry& geometry) const;
   [[nodiscard]] std::vector<double> present() const;
 
@@ -24,6 +25,7 @@ class ClearanceRows {
   };
   struct Sums {
     double complementarity{}, primal{};
+    bool lost{};  ///< the distance at a place without clearance has no slope
   };
   void begin(const std::vector<double>& values, double mu);
   Sums assemble(PathGeometry& geometry, double mu, const Blocks& blocks);
@@ -32,22 +34,33 @@ class ClearanceRows {
   void take(const std::vector<double>& values, double primal, double dual, double mu);
 
  private:
-  struct Node {
+  struct Part {
     std::size_t piece{};
-    double share{};
+    double from{}, to{};  ///< shares of the piece, that of a neighbor below 0 and above 1
     Row row{};
     Eigen::VectorXd gradient{};  ///< empty: far from every obstacle
   };
+  struct Place {
+    std::size_t piece{};
+    double share{};
+  };
+  struct Nearest {
+    Place place{};
+    double slack_m{};
+    bool inside{};  ///< of the part: not at an end
+  };
+  Place place(const PathGeometry& geometry, std::size_t piece, double share) const;
+  Nearest nearest(const PathGeometry& geometry, const Part& part) const;
   struct Slopes {
     double x{}, y{}, heading{};  ///< in the program's frame
     double bend{};               ///< second derivative across the gradient
   };
   double slack_m(const Pose& pose) const;
   Slopes slopes(const Pose& pose, double here_m) const;
-  void add(Node& node, PathGeometry& geometry, double mu, const Blocks& blocks);
+  void add(Part& part, const Nearest& at, PathGeometry& geometry, double mu, const Blocks& blocks);
 
   const Program& program_;
-  std::vector<Node> nodes_{};
+  std::vector<Part> parts_{};
 };
 
 }  // namespace joulepath::joint

@@ -16,6 +16,8 @@ struct StepLengths {
 
 /// An inequality value >= 0 with its slack s > 0 and multiplier z > 0: value = s, s z = mu.
 struct Row {
+  /// Of s z, relative to mu: a row farther off would meet its bound without a force against it.
+  static constexpr double kLeastProduct = 0.1;
   double value{}, s{1}, z{}, ds{}, dz{};
 
   void begin(double at, double least, double mu) {
@@ -41,7 +43,7 @@ struct Row {
   }
   void take(double primal, double dual, double new_value, double mu) {
     s = slack_after(primal, new_value);
-    z = std::clamp(z + dual * dz, 1e-4 * mu / s, 1e6 * mu / s + 1e-12);
+    z = std::clamp(z + dual * dz, kLeastProduct * mu / s, 1e6 * mu / s + 1e-12);
     value = new_value;
   }
 };

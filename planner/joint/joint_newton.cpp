@@ -6,6 +6,7 @@
 #include "planner/joint/interior_rows.hpp"
 #include "planner/joint/joint_segment.hpp"
 #include "planner/joint/path_geometry.hpp"
+#include "planner/joint/start_fit.hpp"
 
 namespace joulepath::joint {
 namespace {
@@ -16,9 +17,13 @@ using Jet = nlp::JetOf<kSegmentVariables>;
 constexpr double kCostScale = 100;     ///< the cost of a start in the program's unit
 constexpr double kMostTurn_rad = 0.5;  ///< of a knot's phi in one step
 constexpr double kLeastRegularization = 1e-3;
-constexpr double kPhiWeight = 10;      ///< of phi in the regularization; of a length: 1/length^2
-constexpr double kLeastSquare = 1e-7;  ///< of b, relative to the largest
-constexpr double kStartShare = 0.6;    ///< of the limits that a start uses
+constexpr double kPhiWeight = 10;          ///< of phi in the regularization; of a length: 1/length^2
+constexpr double kLeastSquare = 1e-7;      ///< of b, relative to the largest
+constexpr double kDisplacementWeight = 2;  ///< of the path's displacement in the regularization: a knot of a
+                                           ///< long piece moves all that follows by metres
+constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the least complementarity
+constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
+constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
 
 /// A part of a piece between two nodes of the speed.
 struct Part {
@@ -35,6 +40,7 @@ class Newton {
  private:
   struct Sums {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
+    bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out
     double error() const { return std::max({complementarity, primal, 0.1 * dual}) / std::max(cost, 1e-3); }
   };
   struct Values {
@@ -109,9 +115,11 @@ Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd&
   if (squares.size()) {
     b_ = squares;
   } else {
+    follow_waypoints(program_, p_);
     reach_targets(program_, p_, 8);
     begin_speed();
   }
+  clearance_.lay_out(p_);
 }
 
 void Newton::lay_out() {
@@ -127,7 +135,6 @@ void Newton::lay_out() {
       parts_.push_back(part);
     }
   }
-  clearance_.lay_out();
   const Limits& most = program_.laws.front().limits;
   const double fastest = std::isfinite(most.speed_m_s) ? most.speed_m_s : 1.0;
   most_square_ = fastest * fastest;
@@ -353,6 +360,7 @@ Newton::Sums Newton::assemble() {
   const auto clear = clearance_.assemble(geometry_, mu_, {gp_, lp_, hpp_});
   sums.complementarity += clear.complementarity;
   sums.primal += clear.primal;
+  sums.lost = clear.lost;
   geometry_.finish_curvature(lambda_, hpp_);
   for (std::size_t k = 0; k < parts_.size(); ++k)
     if (parts_[k].b1 >= 0) sums.dual += std::abs(lb_[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
@@ -396,15 +404,16 @@ void Newton::direction() {
   VectorXd weight(n);
   for (Index i = 0; i < n; ++i)
     weight[i] = i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
-  const MatrixXd reduced = null.transpose() * schur * null,
-                 damping = null.transpose() * weight.asDiagonal() * null;
+  MatrixXd metric = kDisplacementWeight * geometry_.displacement_metric();
+  metric.diagonal() += weight;
+  const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric * null;
   const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
   regularization_ = std::max(kLeastRegularization, 0.2 * regularization_);
   Eigen::LLT<MatrixXd> cholesky(reduced + regularization_ * damping);
   for (int i = 0; cholesky.info() != Eigen::Success && i < 30; ++i)
     cholesky.compute(reduced + (regularization_ *= 6) * damping);
   dp_ = to_targets + null * cholesky.solve(right);
-  const VectorXd rest = -(gradient + schur * dp_ + regularization_ * weight.cwiseProduct(dp_));
+  const VectorXd rest = -(gradient + schur * dp_ + regularization_ * metric * dp_);
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
@@ -498,26 +507,27 @@ void Newton::search(const StepLengths& lengths) {
     step_ *= 0.5;
   }
   if (halvings >= 3) regularization_ = std::max(6 * regularization_, 1e-2);
-  const double dual = std::min(lengths.dual, std::max(step_, lengths.primal < 1 ? step_ : lengths.dual));
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].take(step_, dual, next.parts[k].rows[r], mu_);
-    for (std::size_t c = 0; c < 2; ++c) channels_[k][c].take(step_, dual, next.parts[k].energy_J[c]);
+    for (std::size_t r = 0; r < kSegmentRows; ++r)
+      rows_[k][r].take(step_, lengths.dual, next.parts[k].rows[r], mu_);
+    for (std::size_t c = 0; c < 2; ++c) channels_[k][c].take(step_, lengths.dual, next.parts[k].energy_J[c]);
   }
-  for_bounds(b, p, [&](Row& row, double value, Index, bool, double) { row.take(step_, dual, value, mu_); });
-  clearance_.take(next.clearance, step_, dual, mu_);
+  for_bounds(b, p,
+             [&](Row& row, double value, Index, bool, double) { row.take(step_, lengths.dual, value, mu_); });
+  clearance_.take(next.clearance, step_, lengths.dual, mu_);
   lambda_ += step_ * (lambda_new_ - lambda_);
   b_ = std::move(b);
   p_ = std::move(p);
 }
 
-/// The barrier falls with the step's length, never below a tenth of the other residuals.
+/// The barrier falls with the step's length, never below a share of the other residuals.
 void Newton::lower_barrier(const Sums& sums) {
   const auto pairs = static_cast<double>(pairs_);
   const double rest = std::max(sums.primal, 0.1 * sums.dual),
                last = 0.05 * options_.tolerance * sums.cost / pairs;
   const double factor = step_ > 0.6 ? std::max(0.1, 1 - step_) : step_ > 0.25 ? 0.5 : 1.0;
   const double aim = std::min(mu_, sums.complementarity / pairs) * factor;
-  mu_ = std::max(last, std::min(mu_, std::max(aim, std::max(last, 0.1 * rest / pairs))));
+  mu_ = std::max(last, std::min(mu_, std::max({aim, last, kLeastOfRest * rest / pairs})));
 }
 
 JointSolution Newton::run() {
@@ -529,10 +539,15 @@ JointSolution Newton::run() {
     solution.duration_s = sums.duration_s;
     const double error = sums.error();
     solution.converged = error < options_.tolerance;
-    if (solution.converged || !std::isfinite(error) || solution.steps == options_.most_steps) break;
+    solution.feasible = !sums.lost && sums.primal < kFeasible * sums.cost && errors_.norm() < kFeasible;
+    if (solution.converged || sums.lost || !std::isfinite(error) || solution.steps == options_.most_steps)
+      break;
     const bool settled = sums.complementarity < 0.05 * sums.cost && sums.primal < 0.01 * sums.cost &&
                          0.1 * sums.dual < 0.05 * sums.cost;
-    if (settled && (sums.cost - sums.complementarity - 0.2 * sums.dual) / scale_ > options_.give_up_J) break;
+    if (settled && (sums.cost - sums.complementarity - 0.2 * sums.dual) / scale_ > options_.give_up_J) {
+      solution.feasible = false;
+      break;
+    }
     direction();
     if (!dp_.allFinite() || !db_.allFinite()) break;
     search(step_rows());
@@ -547,34 +562,6 @@ JointSolution Newton::run() {
 
 JointSolution solve(const Start& start, const NewtonOptions& options, const VectorXd& squares) {
   return Newton(start, options, squares).run();
-}
-
-void reach_targets(const Program& program, VectorXd& p, int steps) {
-  PathGeometry geometry(program);
-  const Index knots = program.knots, n = program.parameters();
-  for (int step = 0; step < steps; ++step) {
-    geometry.differentiate(p);
-    const VectorXd errors = geometry.errors();
-    if (errors.norm() < 1e-13) return;
-    const MatrixXd gradient = geometry.error_gradient();
-    VectorXd ease(n);
-    for (Index i = 0; i < n; ++i) ease[i] = i < knots ? 0.2 : std::max(0.02, p[i] * p[i]);
-    const MatrixXd eased = gradient * ease.asDiagonal();
-    const VectorXd change = -eased.transpose() * (eased * gradient.transpose()).ldlt().solve(errors);
-    double share = 1;
-    for (Index i = 0; i < n; ++i) {
-      if (i < knots)
-        share = std::min(share, 0.6 / std::abs(change[i]));
-      else if (change[i] < 0)
-        share = std::min(share, 0.7 * (p[i] - 0.3 * kShortestPiece_m) / -change[i]);
-    }
-    p += share * change;
-    for (const Piece& piece : program.pieces)
-      for (const Index knot : {piece.from, piece.to}) {
-        const double about = piece.sign > 0 ? 0.0 : M_PI, most = kMostDirection_rad - 1e-6;
-        p[knot] = std::clamp(p[knot], about - most, about + most);
-      }
-  }
 }
 
 }  // namespace joulepath::joint

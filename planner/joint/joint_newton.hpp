@@ -11,7 +11,7 @@ namespace joulepath::joint {
 
 struct NewtonOptions {
   double tolerance{2e-3};  ///< complementarity, constraints and gradient, relative to the cost
-  int most_steps{60};
+  int most_steps{100};
   double gap{0.3};             ///< of the first complementarity, relative to the cost
   double give_up_J{kNoLimit};  ///< stops where a bound of the cost is above
 };
@@ -19,6 +19,7 @@ struct NewtonOptions {
 /// A solution, or the state at which the method stopped.
 struct JointSolution {
   bool converged{};
+  bool feasible{};  ///< nearly: the targets and rows hold to percents, whatever is left to gain
   double cost_J{};  ///< energy and the price of time
   double duration_s{};
   Eigen::VectorXd parameters{};  ///< see Program
@@ -31,8 +32,5 @@ struct JointSolution {
 /// poses and the clearance. `squares`: of the start; empty: from a pass of its own.
 [[nodiscard]] JointSolution solve(const Start& start, const NewtonOptions& options,
                                   const Eigen::VectorXd& squares = {});
-
-/// The nearest parameters that reach the targets (Gauss-Newton), as far as `steps` go.
-void reach_targets(const Program& program, Eigen::VectorXd& parameters, int steps);
 
 }  // namespace joulepath::joint

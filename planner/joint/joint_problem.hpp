@@ -29,12 +29,19 @@ struct Target {
   std::optional<double> heading_rad{};  ///< whole turns included
 };
 
+/// A place that a start passes at the end of a piece, in the frame of the start.
+struct Waypoint {
+  std::size_t piece{};
+  Point2 at_m{};
+};
+
 /// Path and speed of legs as one program. The path begins at the origin with heading 0: `frame` is the start
 /// on the floor.
 struct Program {
   std::vector<Piece> pieces{};
   Eigen::Index knots{};
   std::vector<Target> targets{};
+  std::vector<Waypoint> waypoints{};  ///< of the start alone
   std::vector<DriveLaw> laws{};
   Pose frame{};
   const FootprintChecker* checker{};  ///< null: an open floor

@@ -6,6 +6,7 @@
 
 #include "planner/joint/joint_newton.hpp"
 #include "planner/joint/path_geometry.hpp"
+#include "planner/joint/start_fit.hpp"
 
 namespace joulepath::joint {
 namespace {
@@ -14,7 +15,8 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
-constexpr double kFineTolerance = 1e-4, kWarmGap = 2e-3;
+constexpr double kFineTolerance = 1e-4, kWarmGap = 2e-2;
+constexpr int kMostSteps = 50;  ///< of a start
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
 
@@ -64,7 +66,8 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
   fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
   counts.steps += fine.solution.steps;
-  return fine.solution.converged ? fine : coarse;
+  const bool better = fine.solution.converged || (fine.solution.feasible && !coarse.solution.converged);
+  return better ? fine : coarse;
 }
 
 /// Largest missing clearance along paths; negative: a path cannot be driven as it is.
@@ -83,6 +86,20 @@ double short_by_m(const std::vector<Path>& paths, const FootprintChecker* checke
   return worst_m;
 }
 
+std::vector<Sketch> sketches_of(const Program& program, const Eigen::VectorXd& p) {
+  std::vector<Sketch> legs(program.targets.size());
+  for (std::size_t j = 0; j < program.pieces.size(); ++j) {
+    const Piece& piece = program.pieces[j];
+    const bool inside = j + 1 < program.pieces.size() && program.pieces[j + 1].leg == piece.leg;
+    legs[piece.leg].parts.push_back({.from_rad = p[piece.from],
+                                     .to_rad = p[piece.to],
+                                     .length_m = p[program.length_of(j)],
+                                     .sign = piece.sign,
+                                     .rests_after = piece.rests_after && inside});
+  }
+  return legs;
+}
+
 /// Paths that meet their goals to rounding and are free; rows only at nodes let a path cut a corner, which
 /// a larger margin mends.
 std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
@@ -94,7 +111,8 @@ std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
     const bool reached =
         geometry.errors().norm() < 1e-10 && (exact - candidate.solution.parameters).norm() < 0.05;
     if (!reached) return std::nullopt;
-    JointPaths paths{paths_of(candidate.start.program, exact), candidate.solution.cost_J};
+    JointPaths paths{paths_of(candidate.start.program, exact), candidate.solution.cost_J,
+                     sketches_of(candidate.start.program, exact)};
     const double short_m = short_by_m(paths.legs, candidate.start.program.checker);
     if (short_m == 0) return paths;
     candidate.start.program.margin_m += short_m + kMarginStep_m;
@@ -150,12 +168,12 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
     candidate.start.program.laws.insert(candidate.start.program.laws.end(), query.reverse_laws.begin(),
                                         query.reverse_laws.end());
     candidate.start.program.checker = query.checker;
-    candidate.solution = solve(candidate.start, {.give_up_J = kGiveUp * best_J});
+    candidate.solution = solve(candidate.start, {.most_steps = kMostSteps, .give_up_J = kGiveUp * best_J});
     ++counts.starts;
     counts.steps += candidate.solution.steps;
     counts.failed += !candidate.solution.converged && !(candidate.solution.cost_J > kGiveUp * best_J);
-    if (!candidate.solution.converged) continue;
-    best_J = std::min(best_J, candidate.solution.cost_J);
+    if (!candidate.solution.feasible) continue;
+    if (candidate.solution.converged) best_J = std::min(best_J, candidate.solution.cost_J);
     found.push_back(std::move(candidate));
   }
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
@@ -165,7 +183,8 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
   double last_J = 0;
   for (const Candidate& candidate : found) {
     const double cost_J = candidate.solution.cost_J;
-    if (best.size() == kRefined || (cost_J > kNearBest * best_J && !best.empty())) break;
+    if (best.size() == kRefined || (cost_J > kNearBest * found.front().solution.cost_J && !best.empty()))
+      break;
     if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
     last_J = cost_J;
     if (auto paths = finished(refined(candidate, counts), counts)) best.push_back(std::move(*paths));

@@ -21,6 +21,7 @@ struct JointQuery {
 struct JointPaths {
   std::vector<Path> legs{};
   double cost_J{};
+  std::vector<Sketch> sketches{};  ///< the same legs as starts
 };
 
 struct JointCounts {

@@ -49,6 +49,15 @@ void append_line(Sketch& sketch, double length_m) {
   sketch.parts.push_back({0, 0, std::max(kLeastLine_m, length_m)});
 }
 
+/// How much of a route's sides the bend at a corner replaces.
+double cut_m(const std::vector<Point2>& route_m, std::size_t corner) {
+  const Point2 &a = route_m[corner - 1], &b = route_m[corner], &c = route_m[corner + 1];
+  const double in_m = distance_m(a, b), out_m = distance_m(b, c);
+  const double turn =
+      std::remainder(std::atan2(c[1] - b[1], c[0] - b[0]) - std::atan2(b[1] - a[1], b[0] - a[0]), 2 * kPi);
+  return std::min({kBendRadius_m * std::tan(0.5 * std::min(std::abs(turn), 2.5)), 0.4 * in_m, 0.4 * out_m});
+}
+
 /// The word that turns to `first`, drives straight and turns to `last` (0: any heading at the goal).
 std::optional<Sketch> word(const Pose& start, const LegGoal& goal, double half_track_m, int first, int last,
                            double radius_m) {
@@ -74,12 +83,18 @@ std::optional<Sketch> word(const Pose& start, const LegGoal& goal, double half_t
   return sketch;
 }
 
-/// Direction phi along a path by its length tau.
+/// Direction phi and place along a path by its length tau.
 struct Course {
   std::vector<double> tau_m{0}, phi_rad{};
-  void add(double length_m, double phi) {
+  std::vector<Point2> place_m{};  ///< after each step
+  void add(double length_m, double phi, const Pose& at_end) {
     tau_m.push_back(tau_m.back() + length_m);
     phi_rad.push_back(phi);
+    place_m.push_back({at_end.x_m, at_end.y_m});
+  }
+  const Point2& place_at(double tau) const {
+    const auto after = std::lower_bound(tau_m.begin() + 1, tau_m.end() - 1, tau) - tau_m.begin();
+    return place_m[static_cast<std::size_t>(after - 1)];
   }
   double phi_at(double tau) const {
     const auto after = std::upper_bound(tau_m.begin(), tau_m.end(), tau) - tau_m.begin();
@@ -96,11 +111,11 @@ Course course_of(std::span<const PathPiece> pieces, double half_track_m) {
     for (int i = 0; i < kLooks; ++i) {
       const double step = length / kLooks;
       if (is_turn(piece)) {
-        course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi);
+        course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi, piece_point(piece, 0).pose);
         continue;
       }
       const double across = half_track_m * piece_bend(piece, (i + 0.5) * step).curvature_per_m;
-      course.add(step * std::hypot(1.0, across), std::atan(across));
+      course.add(step * std::hypot(1.0, across), std::atan(across), piece_point(piece, (i + 1) * step).pose);
     }
   }
   return course;
@@ -125,7 +140,10 @@ Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std:
   Sketch sketch;
   const auto phi = [&](double tau) { return std::clamp(course.phi_at(tau), -kMostPhi_rad, kMostPhi_rad); };
   for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    sketch.parts.push_back({phi(knots[k]), phi(knots[k + 1]), knots[k + 1] - knots[k]});
+    sketch.parts.push_back({.from_rad = phi(knots[k]),
+                            .to_rad = phi(knots[k + 1]),
+                            .length_m = knots[k + 1] - knots[k],
+                            .through_m = course.place_at(knots[k + 1])});
   return sketch;
 }
 
@@ -152,7 +170,8 @@ double Sketch::effort_m() const {
 
 Sketch reversed(Sketch sketch) {
   for (Sketch::Part& part : sketch.parts)
-    part = {kPi - part.from_rad, kPi - part.to_rad, part.length_m, -part.sign, part.rests_after};
+    part = {kPi - part.from_rad, kPi - part.to_rad, part.length_m,
+            -part.sign,          part.rests_after,  part.through_m};
   return sketch;
 }
 
@@ -224,13 +243,21 @@ Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
   Sketch sketch;
   double heading = start.heading_rad;
   for (std::size_t i = 0; i + 1 < route_m.size(); ++i) {
-    const double dx = route_m[i + 1][0] - route_m[i][0], dy = route_m[i + 1][1] - route_m[i][1];
-    const double turn = sense_turn_rad(std::atan2(dy, dx) - heading, i == 0 ? first : 0);
-    if (i == 0)
+    const double bearing_rad =
+        std::atan2(route_m[i + 1][1] - route_m[i][1], route_m[i + 1][0] - route_m[i][0]);
+    const auto on_side = [&](const Point2& corner, double along_m) {
+      return Point2{corner[0] + along_m * std::cos(bearing_rad), corner[1] + along_m * std::sin(bearing_rad)};
+    };
+    const double turn = sense_turn_rad(bearing_rad - heading, i == 0 ? first : 0);
+    if (i == 0) {
       append_arc(sketch, turn, kRouteRadius_m, half_track_m, true);
-    else
+    } else {
       append_bend(sketch, turn, half_track_m);
-    append_line(sketch, std::max(0.15, 0.8 * std::hypot(dx, dy)));
+      sketch.parts.back().through_m = on_side(route_m[i], cut_m(route_m, i));
+    }
+    append_line(sketch, std::max(0.15, 0.8 * distance_m(route_m[i], route_m[i + 1])));
+    if (i + 2 < route_m.size())
+      sketch.parts.back().through_m = on_side(route_m[i + 1], -cut_m(route_m, i + 1));
     heading += turn;
   }
   const double end_rad = heading_rad ? sense_turn_rad(*heading_rad - heading, last) : 0.0;
@@ -261,7 +288,11 @@ Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goal
   program.frame = start;
   std::vector<double> phi, lengths;
   double turned = 0;
-  const double c = std::cos(start.heading_rad), s = std::sin(start.heading_rad);
+  const auto in_frame = [&, c = std::cos(start.heading_rad),
+                         s = std::sin(start.heading_rad)](const Point2& at) {
+    const double dx = at[0] - start.x_m, dy = at[1] - start.y_m;
+    return Point2{c * dx + s * dy, c * dy - s * dx};
+  };
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
     for (const Sketch::Part& part : legs[leg].parts) {
       const bool jumps = program.pieces.empty() || program.pieces.back().rests_after;
@@ -276,12 +307,12 @@ Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goal
                                 .law = part.sign > 0 ? leg : legs.size() + leg,
                                 .rests_after = part.rests_after,
                                 .segments = segments});
+      if (part.through_m) program.waypoints.push_back({program.pieces.size() - 1, in_frame(*part.through_m)});
     }
     program.pieces.back().rests_after = true;
     turned += legs[leg].turn_rad(half_track_m);
     const LegGoal& goal = goals[leg];
-    const double dx = goal.at_m[0] - start.x_m, dy = goal.at_m[1] - start.y_m;
-    Target target{.piece = program.pieces.size() - 1, .at_m = {c * dx + s * dy, c * dy - s * dx}};
+    Target target{.piece = program.pieces.size() - 1, .at_m = in_frame(goal.at_m)};
     if (goal.heading_rad)
       target.heading_rad = turned + std::remainder(*goal.heading_rad - start.heading_rad - turned, 2 * kPi);
     program.targets.push_back(target);

@@ -7,28 +7,40 @@
 namespace joulepath::joint {
 namespace {
 
-/// Displacement from the start of a piece to a share f of its length, by 8-point Gauss-Legendre.
+/// Gauss-Legendre places on either side of the middle, and their weights.
+template <std::size_t Pairs>
+struct GaussRule {
+  std::array<double, Pairs> place{}, weight{};
+};
+constexpr GaussRule<4> kExact{
+    {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168},
+    {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915}};
+constexpr GaussRule<2> kNear{{0.33998104358485626480, 0.86113631159405257522},
+                             {0.65214515486254614263, 0.34785484513745385737}};
+
+/// Displacement from the start of a piece to a share f of its length.
 template <class Real>
 struct Displacement {
   Real x{0.0}, y{0.0}, turn{0.0};
 };
-template <class Real>
+template <class Real, std::size_t Pairs>
 Displacement<Real> displacement(const Real& from_rad, const Real& to_rad, const Real& length_m,
-                                double half_track_m, double f) {
-  constexpr std::array<double, 4> place{0.18343464249564980494, 0.52553240991632898582,
-                                        0.79666647741362673959, 0.96028985649753623168};
-  constexpr std::array<double, 4> weight{0.36268378337836198297, 0.31370664587788728734,
-                                         0.22238103445337447054, 0.10122853629037625915};
+                                double half_track_m, double f, const GaussRule<Pairs>& rule) {
   const PieceRates<Real> rates = piece_rates(from_rad, to_rad, half_track_m);
   Displacement<Real> sum;
   const auto turn = [&](double g) { return length_m * (rates.W0 * g + rates.dW * (0.5 * g * g)); };
-  for (std::size_t i = 0; i < 2 * place.size(); ++i) {
-    const double g = 0.5 * f * (1 + (i % 2 ? place[i / 2] : -place[i / 2]));
-    const Real t = turn(g), along = (rates.A0 + rates.dA * g) * (0.5 * f * weight[i / 2]);
+  for (std::size_t i = 0; i < 2 * Pairs; ++i) {
+    const double g = 0.5 * f * (1 + (i % 2 ? rule.place[i / 2] : -rule.place[i / 2]));
+    const Real t = turn(g), along = (rates.A0 + rates.dA * g) * (0.5 * f * rule.weight[i / 2]);
     sum.x = sum.x + along * cos(t);
     sum.y = sum.y + along * sin(t);
   }
   return {sum.x * length_m, sum.y * length_m, turn(f)};
+}
+
+Pose moved_by(const Pose& from, const Displacement<double>& d) {
+  const double c = std::cos(from.heading_rad), s = std::sin(from.heading_rad);
+  return {from.x_m + c * d.x - s * d.y, from.y_m + s * d.x + c * d.y, from.heading_rad + d.turn};
 }
 
 }  // namespace
@@ -46,17 +58,32 @@ void PathGeometry::place(const Eigen::VectorXd& parameters) {
 Pose PathGeometry::pose(std::size_t piece, double share) const {
   const auto [a, b, l] = own(piece);
   const Eigen::VectorXd& p = *parameters_;
-  const auto d = displacement<double>(p[a], p[b], p[l], program_.half_track_m(), share);
-  const Pose& from = starts_[piece];
-  const double c = std::cos(from.heading_rad), s = std::sin(from.heading_rad);
-  return {from.x_m + c * d.x - s * d.y, from.y_m + s * d.x + c * d.y, from.heading_rad + d.turn};
+  return moved_by(starts_[piece],
+                  displacement<double>(p[a], p[b], p[l], program_.half_track_m(), share, kExact));
+}
+
+Pose PathGeometry::near_pose(std::size_t piece, double share) const {
+  const auto [a, b, l] = own(piece);
+  const Eigen::VectorXd& p = *parameters_;
+  return moved_by(starts_[piece],
+                  displacement<double>(p[a], p[b], p[l], program_.half_track_m(), share, kNear));
+}
+
+double PathGeometry::length_m(std::size_t piece) const { return (*parameters_)[program_.length_of(piece)]; }
+
+double PathGeometry::curvature_per_m(std::size_t piece, double share) const {
+  constexpr double kLeastAlong = 0.05;
+  const auto [a, b, l] = own(piece);
+  const PieceRates<double> rates = piece_rates((*parameters_)[a], (*parameters_)[b], program_.half_track_m());
+  const double along = rates.A(share);
+  return rates.W(share) / std::copysign(std::max(std::abs(along), kLeastAlong), along);
 }
 
 LocalPose PathGeometry::local(std::size_t piece, double share) const {
   const auto index = own(piece);
   std::array<LocalPose::Jet, 3> x;
   for (std::size_t i = 0; i < 3; ++i) x[i] = LocalPose::Jet::variable(i, (*parameters_)[index[i]]);
-  const auto d = displacement(x[0], x[1], x[2], program_.half_track_m(), share);
+  const auto d = displacement(x[0], x[1], x[2], program_.half_track_m(), share, kExact);
   return {d.x, d.y, d.turn};
 }
 
@@ -117,6 +144,10 @@ Eigen::MatrixXd PathGeometry::error_gradient() const {
     if (target.heading_rad) rows.row(row++) = dheading_.col(end).transpose();
   }
   return rows.topRows(row);
+}
+
+Eigen::MatrixXd PathGeometry::displacement_metric() const {
+  return (dx_ * dx_.transpose() + dy_ * dy_.transpose()) / static_cast<double>(program_.pieces.size());
 }
 
 /// With F = l . R(heading) (x, y):  D2 F = -F dh dh' + dF_h dh' + dh dF_h' + l . R D2(x, y), where h is the

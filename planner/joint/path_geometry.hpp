@@ -31,6 +31,11 @@ class PathGeometry {
 
   /// Pose at a share of a piece, in the program's frame.
   [[nodiscard]] Pose pose(std::size_t piece, double share) const;
+  /// The same to about a millimetre, at half the cost.
+  [[nodiscard]] Pose near_pose(std::size_t piece, double share) const;
+  [[nodiscard]] double length_m(std::size_t piece) const;
+  /// Turn per metre travelled, forward or backward (1/m), bounded where the robot turns in place.
+  [[nodiscard]] double curvature_per_m(std::size_t piece, double share) const;
   [[nodiscard]] LocalPose local(std::size_t piece, double share) const;
   /// Gradients of x, y and heading [parameters x 3] of a pose on a piece.
   [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 3> gradient(std::size_t piece,
@@ -39,6 +44,9 @@ class PathGeometry {
   /// Errors of the targets: x, y and, where asked, heading of each.
   [[nodiscard]] Eigen::VectorXd errors() const;
   [[nodiscard]] Eigen::MatrixXd error_gradient() const;  ///< [errors x parameters]
+
+  /// Mean square of the displacement of the pieces' ends (m^2) as a quadratic form of the parameters.
+  [[nodiscard]] Eigen::MatrixXd displacement_metric() const;
 
   /// Adds the second derivative of multiplier . pose of a place on a piece to `hessian`.
   void add_curvature(std::size_t piece, const LocalPose& local, const PoseMultiplier& multiplier,

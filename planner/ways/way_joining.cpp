@@ -40,8 +40,17 @@ bool may_join(const LegRequest& leg, const Limits& limits) {
          limits.lateral_acceleration_m_s2 > 0 && limits.yaw_acceleration_rad_s2 > 0;
 }
 
+/// More for a longer path and for one that turns more.
 std::size_t pieces_for(const Path& path) {
-  return std::min<std::size_t>(12, 6 + static_cast<std::size_t>(0.5 * path.distance_m()));
+  double turned_rad = 0;
+  constexpr int kPlaces = 200;
+  for (const PathPiece& piece : path.pieces)
+    for (int i = 0; i < kPlaces && !is_turn(piece); ++i) {
+      const double length_m = piece_length(piece), step_m = length_m / kPlaces;
+      turned_rad += step_m * std::abs(piece_bend(piece, (i + 0.5) * step_m).curvature_per_m);
+    }
+  const double count = 6 + 0.5 * std::min(path.distance_m(), 12.0) + 2.5 * turned_rad;
+  return static_cast<std::size_t>(std::min(count, 40.0));
 }
 
 /// Whether turning is a notable share of what the wheels roll: on long straight ways the present curves are
@@ -193,6 +202,26 @@ std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
   return starts;
 }
 
+/// Each leg alone, from the arrival of the one before: a start for all of them together.
+RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQuery& query) const {
+  std::vector<Sketch> legs;
+  Pose from = query.start;
+  for (std::size_t i = 0; i < query.goals.size(); ++i) {
+    const joint::JointQuery leg{.start = from,
+                                .goals = {query.goals[i]},
+                                .laws = {query.laws[i]},
+                                .reverse_laws = {query.reverse_laws[i]},
+                                .checker = query.checker};
+    auto [forward, backward] = joint_starts(first + i, leg);
+    auto found = joint::best_joint_paths(leg, std::move(forward));
+    if (found.empty()) found = joint::best_joint_paths(leg, std::move(backward));
+    if (found.empty()) return {};
+    legs.push_back(std::move(found.front().sketches.front()));
+    from = found.front().legs.front().end();
+  }
+  return {legs};
+}
+
 /// The legs' cost with the paths of the joint program in place of the present ones; infinite: not drivable.
 double RefinedRun::joined_J(std::size_t first, const joint::JointPaths& joined) {
   for (std::size_t i = 0; i < joined.legs.size(); ++i) {
@@ -208,7 +237,8 @@ double RefinedRun::joined_J(std::size_t first, const joint::JointPaths& joined) 
   return cost_J;
 }
 
-void RefinedRun::join(std::size_t first, std::size_t count) {
+/// False where it found no drive along a path of its own.
+bool RefinedRun::join(std::size_t first, std::size_t count) {
   joint::JointQuery query{.start = first == 0 ? request_.start : request_.legs[first - 1].goal,
                           .checker = &run_.contexts[first].space->checker()};
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
@@ -222,40 +252,48 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
     worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
   }
-  if (!worth_it) return;
+  if (!worth_it) return true;
   for (std::size_t k = first; k < first + count; ++k) {
     query.laws.push_back(law_of(k, 1));
     query.reverse_laws.push_back(law_of(k, -1));
-    if (!may_join(run_.contexts[k].mission.legs[run_.first + k], query.laws.back().limits)) return;
+    if (!may_join(run_.contexts[k].mission.legs[run_.first + k], query.laws.back().limits)) return false;
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
     found_J += parts_[k].barred ? kNoLimit : certified_J(present[k].path, run_.first + k, run_.contexts[k]);
   }
   auto starts = joint_starts(first, query);
-  if (std::isfinite(found_J)) starts[0].insert(starts[0].begin(), std::move(from_present));
+  if (count > 1)
+    if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
+  if (std::isfinite(found_J)) starts[0].push_back(std::move(from_present));
   const std::vector<Part> before = parts_;
   std::vector<Part> best = parts_;
+  bool found = false;
   for (auto& group : starts)
     for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
       parts_ = before;
       const double cost_J = joined_J(first, joined);
+      found = found || std::isfinite(cost_J);
       if (!(cost_J < found_J)) continue;
       found_J = cost_J;
       best = parts_;
     }
   parts_ = std::move(best);
+  return found;
 }
 
 bool RefinedRun::barred() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.barred; });
 }
 
-void RefinedRun::join() {
+void RefinedRun::join(bool swings) {
   const std::size_t legs = parts_.size();
   for (std::size_t first = 0;; first += kMostTogether - 1) {
     const std::size_t count = std::min(kMostTogether, legs - first);
-    join(first, count);
+    if (!join(first, count) && swings) {
+      swing(first, count);
+      join(first, count);
+    }
     if (first + count == legs) return;
   }
 }

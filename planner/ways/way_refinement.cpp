@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "planner/path/shape/refine.hpp"
 // Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 namespace {
@@ -103,18 +102,6 @@ PathScore RefinedRun::score(std::size_t k) const {
   return sum += parts_[k].driving;
 }
 
-void RefinedRun::refine(std::size_t k) {
-  Part& part = parts_[k];
-  const double price_W = request_.legs[k].price_W;
-  const RefineOptions options{.keep_start_heading = same_heading(heading_before(k), part.leaves_rad),
-                              .keep_goal_heading = same_heading(heading_after(k), part.arrives_rad)};
-  const RefineResult result = refine_path(
-      run_.contexts[k].space->checker(), part.way->shape,
-      [&](const Path& path) { return score(k, path).cost_J(price_W); }, options);
-  if (!result.improved) return;
-  take(k, result.path);
-}
-
 void RefinedRun::take(std::size_t k, const Path& path) {
   Part& part = parts_[k];
   part.path = path;
@@ -178,7 +165,7 @@ bool RefinedRun::swing_from(std::size_t k, double leaves_rad, bool checked) {
 
 /// Where no curve from the robot's heading is cheaper, one from the heading of the way may be, and lead to
 /// the next stops.
-void RefinedRun::swing(std::size_t k, bool checked) {
+void RefinedRun::swing_leg(std::size_t k, bool checked) {
   const double leaves_rad = parts_[k].leaves_rad;
   const double before_rad = heading_before(k).value_or(leaves_rad);
   if (swing_from(k, before_rad, checked)) return;
@@ -214,26 +201,22 @@ void RefinedRun::swing_through(std::size_t k, bool checked) {
   after.spline = result->after.spline;
 }
 
-void RefinedRun::swing_all(bool checked) {
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (!parts_[k].barred) swing(k, checked);
-  for (std::size_t k = 0; k + 1 < parts_.size(); ++k)
+void RefinedRun::swing_all(std::size_t first, std::size_t count, bool checked) {
+  const std::size_t end = first + count;
+  for (std::size_t k = first; k < end; ++k)
+    if (!parts_[k].barred) swing_leg(k, checked);
+  for (std::size_t k = first; k + 1 < end; ++k)
     if (!parts_[k].barred && !parts_[k + 1].barred) swing_through(k, checked);
 }
 
-void RefinedRun::swing() {
+void RefinedRun::swing(std::size_t first, std::size_t count) {
   const std::vector<Part> before = parts_;
-  swing_all(false);
-  for (std::size_t k = 0; k < parts_.size(); ++k)
+  swing_all(first, count, false);
+  for (std::size_t k = first; k < first + count; ++k)
     if (parts_[k].spline && !drivable(k, parts_[k].path)) {
       parts_ = before;
-      return swing_all(true);
+      return swing_all(first, count, true);
     }
-}
-
-void RefinedRun::refine() {
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (!parts_[k].barred) refine(k);
 }
 
 std::vector<LegPath> RefinedRun::paths() const {

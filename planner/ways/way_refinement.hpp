@@ -21,17 +21,15 @@ class RefinedRun {
  public:
   RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run);
 
-  /// Optimizes the control points of each leg in turn, with the headings of its neighbors fixed; a way that
-  /// leaves or reaches a stop in the heading of its neighbor keeps that heading.
-  void refine();
-
-  /// Replaces turns in place at the stops by curves where that is cheaper: optimizes each leg in turn as a
-  /// whole from the robot's present heading (best_swing), then each stop between two such legs (best_stop).
-  void swing();
+  /// Replaces turns in place at the stops of some legs by curves where that is cheaper: optimizes each leg in
+  /// turn as a whole from the robot's present heading (best_swing), then each stop between two such legs
+  /// (best_stop).
+  void swing(std::size_t first, std::size_t count);
 
   /// Replaces the curves of up to three consecutive legs by those that optimize path and speed together,
-  /// headings at the stops between included, where their certified drive is cheaper.
-  void join();
+  /// headings at the stops between included, where their certified drive is cheaper. `swings`: where none is
+  /// found, the legs are optimized by swing() first.
+  void join(bool swings);
 
   /// Whether a leg's present path must not be driven: its way needs a turn without room, or drives forward
   /// where reverse is asked. Only join() finds another one.
@@ -66,11 +64,10 @@ class RefinedRun {
   PathScore turn_after(std::size_t k, const Path& path) const;
   PathScore turn_after(std::size_t k, double arrives_rad) const;
   std::function<double(double)> turning_J(std::size_t k) const;
-  void refine(std::size_t k);
   /// Only the paths at the end must be drivable also between the nodes of a draft. Where one is not, all
   /// swings are searched again, and each is checked before it is taken.
-  void swing_all(bool checked);
-  void swing(std::size_t k, bool checked);
+  void swing_all(std::size_t first, std::size_t count, bool checked);
+  void swing_leg(std::size_t k, bool checked);
   bool swing_from(std::size_t k, double leaves_rad, bool checked);
   const std::vector<SwingResult>& swings(std::size_t k, double leaves_rad,
                                          const std::optional<double>& arrives_rad);
@@ -86,8 +83,9 @@ class RefinedRun {
   Starts rough_chains(std::size_t first, const joint::JointQuery& query,
                       const std::vector<RouteDrive>& drives) const;
   std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;
+  Starts one_by_one(std::size_t first, const joint::JointQuery& query) const;
   double joined_J(std::size_t first, const joint::JointPaths& joined);
-  void join(std::size_t first, std::size_t count);
+  bool join(std::size_t first, std::size_t count);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
 

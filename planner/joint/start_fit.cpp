@@ -1,0 +1,85 @@
+#include "planner/joint/start_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/joint/path_geometry.hpp"
+
+namespace joulepath::joint {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr double kPhiEase = 0.2, kLeastLengthEase_m2 = 0.02;  ///< how far a parameter moves, squared
+constexpr double kMostPhiStep_rad = 0.6, kMostShrink = 0.7;
+constexpr double kWaypoint_m = 0.05, kGoal_m = 0.01;  ///< deviations that weigh as much as a step of the ease
+constexpr double kClose_m = 0.02;                     ///< of every waypoint: near enough
+constexpr int kFollowSteps = 12;
+
+VectorXd ease_of(const Program& program, const VectorXd& p) {
+  VectorXd ease(p.size());
+  for (Index i = 0; i < p.size(); ++i)
+    ease[i] = i < program.knots ? kPhiEase : std::max(kLeastLengthEase_m2, p[i] * p[i]);
+  return ease;
+}
+
+/// Moves as far along a change as knots and lengths allow.
+void move(const Program& program, VectorXd& p, const VectorXd& change) {
+  double share = 1;
+  for (Index i = 0; i < p.size(); ++i) {
+    if (i < program.knots)
+      share = std::min(share, kMostPhiStep_rad / std::abs(change[i]));
+    else if (change[i] < 0)
+      share = std::min(share, kMostShrink * (p[i] - 0.3 * kShortestPiece_m) / -change[i]);
+  }
+  p += share * change;
+  for (const Piece& piece : program.pieces)
+    for (const Index knot : {piece.from, piece.to}) {
+      const double about = piece.sign > 0 ? 0.0 : std::numbers::pi, most = kMostDirection_rad - 1e-6;
+      p[knot] = std::clamp(p[knot], about - most, about + most);
+    }
+}
+
+}  // namespace
+
+void follow_waypoints(const Program& program, VectorXd& p) {
+  if (program.waypoints.empty()) return;
+  PathGeometry geometry(program);
+  const auto places = 2 * static_cast<Index>(program.waypoints.size());
+  for (int step = 0; step < kFollowSteps; ++step) {
+    geometry.differentiate(p);
+    const VectorXd errors = geometry.errors();
+    MatrixXd slopes(places + errors.size(), p.size());
+    VectorXd off(slopes.rows());
+    for (Index i = 0; i < places / 2; ++i) {
+      const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i)];
+      const Pose there = geometry.pose(waypoint.piece, 1);
+      const auto slope = geometry.gradient(waypoint.piece, geometry.local(waypoint.piece, 1));
+      off.segment<2>(2 * i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
+      slopes.middleRows<2>(2 * i) = slope.leftCols<2>().transpose();
+    }
+    if (off.head(places).lpNorm<Eigen::Infinity>() < kClose_m && errors.norm() < kClose_m) return;
+    off.head(places) /= kWaypoint_m;
+    slopes.topRows(places) /= kWaypoint_m;
+    off.tail(errors.size()) = errors / kGoal_m;
+    slopes.bottomRows(errors.size()) = geometry.error_gradient() / kGoal_m;
+    MatrixXd normal = slopes.transpose() * slopes;
+    normal.diagonal() += ease_of(program, p).cwiseInverse();
+    move(program, p, -normal.ldlt().solve(slopes.transpose() * off));
+  }
+}
+
+void reach_targets(const Program& program, VectorXd& p, int steps) {
+  PathGeometry geometry(program);
+  for (int step = 0; step < steps; ++step) {
+    geometry.differentiate(p);
+    const VectorXd errors = geometry.errors();
+    if (errors.norm() < 1e-13) return;
+    const MatrixXd gradient = geometry.error_gradient();
+    const MatrixXd eased = gradient * ease_of(program, p).asDiagonal();
+    move(program, p, -eased.transpose() * (eased * gradient.transpose()).ldlt().solve(errors));
+  }
+}
+
+}  // namespace joulepath::joint
