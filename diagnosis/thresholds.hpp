@@ -74,6 +74,8 @@ inline constexpr double kStillSpeed_m_s = 0.02;
 /// Below it the direction of a turn is uncertain. Physical scale: the noise of a smoothed yaw rate, of
 /// encoders with a thousand steps.
 inline constexpr double kStillYawRate_rad_s = 0.01;
+/// Mean sign of a yaw rate from which on the robot surely turns. Chosen: 2.6 of its standard deviations.
+inline constexpr double kSureTurn = 0.99;
 /// Below it the direction of a turn is uncertain for an unknown moment. Physical scale.
 inline constexpr double kBlurredTurn_rad_s = 0.04;
 /// The same of a motor's current. Physical scale.
@@ -209,7 +211,8 @@ inline constexpr double kFarBeyond = 3.0;
 inline constexpr double kLongestStep_s = 60.0;
 /// Of an epoch clock: the year 2286. Derived: milliseconds since 1970 are above it, seconds below.
 inline constexpr double kLatestClock_s = 1e10;
-/// From rest to a wheel's greatest speed, at the steepest rise of the log. Physical scale: a robot needs seconds.
+/// From rest to a wheel's greatest speed, at the steepest rise of the log. Physical scale: a robot needs
+/// seconds.
 inline constexpr double kLongestStart_s = 100.0;
 /// And in more samples than this: a log with a sample each minute misses the start. Chosen.
 inline constexpr double kLeastStartSteps = 10.0;
@@ -245,6 +248,9 @@ inline constexpr double kLeastShortNoise = 0.05;
 inline constexpr double kResolution = 5e-4;
 /// The same of voltages: a duty cycle is set, not sensed, and finer. Physical scale.
 inline constexpr double kVoltageResolution = 2e-4;
+/// Moment that the contacts hold on a straight line after a turn, over the moment of the robot's resistance
+/// at half the track, 1-sigma. Physical scale: that of scrub.
+inline constexpr double kUsualHeldMoment = 0.4;
 /// Creep of a rubber tire times the mass that it carries, 1-sigma. Physical scale.
 inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
 /// Error of time stamps over the log's period, 1-sigma. Chosen (0503).

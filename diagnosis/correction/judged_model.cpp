@@ -6,14 +6,6 @@
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
-namespace {
-
-/// Creep and time stamps are no factors: their errors are about 0.
-bool is_factor(const Nuisance& nuisance) {
-  return nuisance.key != kCreepNuisance && nuisance.key != kStampNuisance;
-}
-
-}  // namespace
 
 ModelState within_calibration(const Examination& x, ModelState state) {
   for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
@@ -35,11 +27,10 @@ Robot corrected_robot(const Examination& x, const ModelState& state) {
 }
 
 JudgedModel judged_model(const Examination& x, const Refit& fitted) {
-  JudgedModel model{.signals = x.runs.fold_of.empty()
-                                   ? read_signals(x.runs.validation, channel_delay_s(fitted.state))
-                                   : fitted.signals,
-                    .states = std::vector<ModelState>(x.runs.validation.runs.size(),
-                                                   within_calibration(x, fitted.state))};
+  JudgedModel model{
+      .signals = x.runs.fold_of.empty() ? read_signals(x.runs.validation, channel_delay_s(fitted.state))
+                                        : fitted.signals,
+      .states = std::vector<ModelState>(x.runs.validation.runs.size(), within_calibration(x, fitted.state))};
   const std::vector<std::size_t>& fold_of = x.runs.fold_of;
   if (fold_of.empty()) return model;
   for (std::size_t fold = 0; fold < fold_count(x.runs); ++fold) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "diagnosis/prediction/added_torque.hpp"
+
 // Design: docs/decisions/0501-motion.md
 namespace joulepath {
 namespace {
@@ -73,16 +75,8 @@ BodyMotion<double> ContactCreep::body_motion(BodyMotion<double> wheels, Eigen::I
 void ContactCreep::spin_wheels(const Site& site, Eigen::Index j, Sided<WheelState<double>>& state) const {
   const Robot& robot = plant_.robot;
   const Sided<double> ahead_rad_s2 = wheel_speeds_rad_s(robot.geometry, along_.rate[j], turn_.rate[j]);
-  for (const Side side : kSides) {
-    const Motor& motor = robot.motor[side];
-    WheelState<double>& wheel = state[side];
-    wheel.torque_Nm += robot.inertia.wheel_axle_inertia_kg_m2 * ahead_rad_s2[side];
-    const double before_A = wheel.current_A;
-    wheel.current_A = motor_current_A(motor, wheel.torque_Nm);
-    wheel.voltage_V +=
-        plant_.resistance_factor(site.time_of_day_s) * motor.resistance_ohm * (wheel.current_A - before_A);
-    wheel.power_W = wheel.voltage_V * wheel.current_A;
-  }
+  for (const Side side : kSides)
+    add_torque(plant_, site, side, robot.inertia.wheel_axle_inertia_kg_m2 * ahead_rad_s2[side], state[side]);
 }
 
 }  // namespace joulepath

@@ -1,6 +1,17 @@
 #include "diagnosis/prediction/nuisance.hpp"
 
+#include "model/effects/yardsticks.hpp"
+
 namespace joulepath {
+
+double usual_held_moment_Nm(const Robot& robot) {
+  return kUsualHeldMoment * robot_measures::resisting_moment_Nm(robot);
+}
+
+bool is_factor(const Nuisance& nuisance) {
+  return nuisance.key != kCreepNuisance && nuisance.key != kStampNuisance &&
+         nuisance.key != kHeldTurnNuisance;
+}
 
 std::string text_of(const Nuisance& nuisance) {
   return nuisance.side ? nuisance.key + " (" + side_name(*nuisance.side) + ")" : nuisance.key;
@@ -10,6 +21,7 @@ std::vector<Nuisance> calibration_nuisances(const Robot& robot) {
   std::vector<Nuisance> nuisances = nuisances_of(robot);
   nuisances.push_back({kCreepNuisance, std::nullopt, 1.0});
   nuisances.push_back({kStampNuisance, std::nullopt, 1.0});
+  for (Side side : kSides) nuisances.push_back({kHeldTurnNuisance, side, 1.0});
   return nuisances;
 }
 

@@ -5,20 +5,28 @@
 
 namespace joulepath {
 
-/// Two errors of every robot that no robot file contains: tires creep slightly under force, and time stamps
-/// of the electrical channels are accurate to a part of a sample only.
+/// Three errors of every robot that no robot file contains: tires creep slightly under force, time stamps of
+/// the electrical channels are accurate to a part of a sample only, and after a turn the contacts may hold a
+/// yaw moment on a straight line.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
+inline const std::string kHeldTurnNuisance = "held_turn";
 
 /// 1-sigma of the creep compliance of a robot's tires, m/s per N.
 inline double usual_creep_m_s_N(const Robot& robot) {
   return kUsualCreep_kg_m_s_N / robot.total_mass_kg(0.0);
 }
 
+/// 1-sigma of the moment that the contacts hold after a turn, N m.
+double usual_held_moment_Nm(const Robot& robot);
+
+/// True for a constant with a relative error. Creep, time stamps and a held moment are errors about 0.
+bool is_factor(const Nuisance& nuisance);
+
 /// A calibration constant in words: "wheel_radius_m" or "friction_torque_Nm (left)".
 std::string text_of(const Nuisance& nuisance);
 
-/// Nuisances: the `uncertainty:` of the robot file, tire creep and time stamps.
+/// Nuisances: the `uncertainty:` of the robot file, tire creep, time stamps and the moment held after a turn.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 
 }  // namespace joulepath

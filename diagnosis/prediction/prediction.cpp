@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnosis/prediction/contact_creep.hpp"
+#include "diagnosis/prediction/held_turn.hpp"
 #include "diagnosis/prediction/region_edge.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/signals/site.hpp"
@@ -206,6 +207,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   Prediction out = empty_prediction(signals.size());
   const std::optional<ContactCreep> creep = creep_of(plant, signals);
   Slip slip;
+  HeldTurn turn(plant, point.held_moment_Nm);
   drive(plant, signals, [&](Eigen::Index j, const Site& site, const BodyMotion<double>& rolled) {
     const BodyMotion<double> motion = creep ? creep->body_motion(rolled, j) : rolled;
     Sided<WheelState<double>> state = state_at(plant, signals, motion, site);
@@ -214,6 +216,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
       slip.add(creep->along_m_s(j) * signals.period_s, creep->turn_rad_s(j) * signals.period_s,
                site.pose.heading_rad);
     }
+    turn.load(signals, motion, site, state);
     write_electrics(plant, signals, j, state, change_at(plant, signals, j, motion, site), out);
     out.yaw_rate_rad_s[j] = motion.yaw_rate_rad_s;
     write_pose(plant.robot.geometry, signals, j, slip, out);

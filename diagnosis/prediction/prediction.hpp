@@ -14,7 +14,9 @@ struct ModelPoint {
   std::vector<EffectSetting> effects{};  ///< in addition to those of the robot file
   double payload_factor{1.0};            ///< weighing error of all payloads
   double contact_creep_m_s_N{};          ///< creep of every tire, without the effects
-  double channel_delay_s{};              ///< delay of the motors' readings in addition to that of the effects
+  /// Of the contacts on a straight line after a turn to the left or to the right, in the turn's direction.
+  Sided<double> held_moment_Nm{};
+  double channel_delay_s{};  ///< delay of the motors' readings in addition to that of the effects
 };
 
 /// Prediction of a model for the measured motion of a run.

@@ -34,6 +34,11 @@ Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry
           .memory = memory};
 }
 
+bool stands(const Geometry& geometry, const BodyMotion<double>& motion) {
+  return std::abs(motion.speed_m_s) < kStandstillAlong_m_s &&
+         std::abs(motion.yaw_rate_rad_s) * geometry.half_track_m < kStandstillAcross_m_s;
+}
+
 Sided<WheelChange> change_at(const Plant& plant, const RunSignals& signals, Eigen::Index j,
                              const BodyMotion<double>& motion, const Site& site) {
   Twist<double> jerk{};

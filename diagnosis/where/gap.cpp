@@ -9,6 +9,7 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/prediction/rows.hpp"
+#include "diagnosis/signals/site.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/normal_quantiles.hpp"
 
@@ -257,9 +258,9 @@ bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const Model
 
 const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index j) {
   const BodyMotion<double> motion = run.rolled_motion(geometry, j);
+  if (stands(geometry, motion)) return "standstill";
   const double across_m_s = std::abs(motion.yaw_rate_rad_s) * geometry.half_track_m;
   const double along_m_s = std::abs(motion.speed_m_s);
-  if (along_m_s < kStandstillAlong_m_s && across_m_s < kStandstillAcross_m_s) return "standstill";
   if (across_m_s > kSpinRatio * along_m_s) return "spin";
   if (across_m_s > kTurnRatio * along_m_s + kTurnAcross_m_s) return "turn";
   const double gain = motion.acceleration_m_s2 * (motion.speed_m_s > 0 ? 1 : -1);
