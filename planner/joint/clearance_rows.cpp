@@ -13,7 +13,7 @@ constexpr double kActive = 1e-6, kFlat = 1e-9;
 constexpr double kLeastSlack_m = 0.03;
 constexpr double kPart_m = 0.6, kMostParts = 24;
 constexpr double kOverlap = 0.25;  ///< of a part at each end
-constexpr double kLook_m = 0.1, kMostLooks = 24;
+constexpr double kLook_m = 0.1, kMostLooks = 24, kCloser = 0.1;
 constexpr double kLeastOpening_per_m = 0.1;
 
 Pose on_floor(const Pose& frame, const Pose& pose) {
@@ -48,7 +48,8 @@ ClearanceRows::Place ClearanceRows::place(const PathGeometry& geometry, std::siz
   return joined ? Place{piece + 1, beyond(piece + 1, share - 1)} : Place{piece, 1};
 }
 
-/// Looks every kLook_m, then at the vertex of the parabola through the least look and its neighbors.
+/// Looks every kLook_m, then at the vertex of the parabola through the least look and its neighbors, and at
+/// that of a closer one: the slopes are those at the place, so it must be near.
 ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, const Part& part) const {
   const double length_m = (part.to - part.from) * geometry.length_m(part.piece);
   const int looks = static_cast<int>(std::clamp(std::ceil(length_m / kLook_m), 2.0, kMostLooks));
@@ -67,11 +68,17 @@ ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, cons
   }
   if (k == 0 || k == looks || least.slack_m >= kFar_m - program_.margin_m) return least;
   least.inside = true;
-  const double bend = slacks[k - 1] + slacks[k + 1] - 2 * slacks[k];
-  if (!(bend > 0)) return least;
-  Nearest vertex = look(part.from + step * (k + 0.5 * (slacks[k - 1] - slacks[k + 1]) / bend));
-  vertex.inside = true;
-  return vertex.slack_m < least.slack_m ? vertex : least;
+  double share = part.from + k * step, before = slacks[k - 1], after = slacks[k + 1];
+  for (double width = step;; width *= kCloser) {
+    const double bend = before + after - 2 * least.slack_m;
+    if (!(bend > 0)) return least;
+    share += std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) * width;
+    least = look(share);
+    least.inside = true;
+    if (width < step) return least;
+    before = look(share - kCloser * width).slack_m;
+    after = look(share + kCloser * width).slack_m;
+  }
 }
 
 double ClearanceRows::slack_m(const Pose& pose) const {

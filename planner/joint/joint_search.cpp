@@ -15,7 +15,7 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
-constexpr double kFineTolerance = 1e-4, kWarmGap = 2e-2;
+constexpr double kFineTolerance = 1e-4, kWarmGap = 5e-3;
 constexpr int kMostSteps = 50;  ///< of a start
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
@@ -52,7 +52,7 @@ bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
   });
 }
 
-/// The solution on a finer grid from a coarse one; the coarse one where the method fails.
+/// The solution on a finer grid from a coarse one; the coarse one where the method fails without a gain.
 Candidate refined(const Candidate& coarse, JointCounts& counts) {
   Candidate fine = coarse;
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
@@ -66,7 +66,8 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
   fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
   counts.steps += fine.solution.steps;
-  const bool better = fine.solution.converged || (fine.solution.feasible && !coarse.solution.converged);
+  const bool better =
+      fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
   return better ? fine : coarse;
 }
 

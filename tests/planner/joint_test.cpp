@@ -6,6 +6,7 @@
 #include <random>
 
 #include "model/limit_table.hpp"
+#include "planner/joint/clearance_rows.hpp"
 #include "planner/joint/joint_newton.hpp"
 #include "planner/joint/joint_search.hpp"
 #include "planner/joint/joint_segment.hpp"
@@ -125,6 +126,62 @@ TEST(JointGeometry, SecondDerivativesAreThoseOfDifferences) {
     down[i] -= h;
     EXPECT_LT((hessian.col(i) - (slope(up) - slope(down)) / (2 * h)).norm(), 1e-7) << i;
   }
+}
+
+/// A block of 0.2 x 0.15 m; its upper left corner is at (2.9, 1.65).
+OccupancyGrid block() {
+  OccupancyGrid grid = free_grid(120, 80, 0.05);
+  for (int row = 30; row < 33; ++row)
+    for (int column = 58; column < 62; ++column)
+      grid.occupancy_percent[static_cast<std::size_t>(row * 120 + column)] = 100;
+  return grid;
+}
+
+// A path of two pieces past the corner: the place with the least clearance moves along it.
+TEST(ClearanceRows, SecondDerivativesAreThoseOfDifferences) {
+  constexpr double kMu = 1e-2, h = 1e-4;
+  const ObstacleField field(block());
+  const FootprintChecker checker(field, testing::nomad().footprint, 0.05);
+  Program program;
+  program.pieces = {{0, 1, 1, 0, 0, false, 5}, {1, 2, 1, 0, 0, true, 5}};
+  program.knots = 3;
+  program.laws = {law_of(even_nomad())};
+  program.frame = {1.85, 1.487, 0.5};
+  program.checker = &checker;
+  const Eigen::VectorXd p = (Eigen::VectorXd(5) << 0.03, -0.02, 0.04, 0.8, 1.1).finished();
+  PathGeometry start(program);
+  start.place(p);
+  ClearanceRows rows(program);
+  rows.lay_out(p);
+  rows.begin(rows.values(start), kMu);
+  struct Sums {
+    Eigen::VectorXd gradient, lagrangian;
+    Eigen::MatrixXd hessian;
+  };
+  const auto sums_at = [&](const Eigen::VectorXd& at) {
+    Sums sums{Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5), Eigen::MatrixXd::Zero(5, 5)};
+    PathGeometry geometry(program);
+    geometry.differentiate(at);
+    rows.assemble(geometry, kMu, {sums.gradient, sums.lagrangian, sums.hessian});
+    geometry.finish_curvature({}, sums.hessian);
+    return sums;
+  };
+  const Eigen::MatrixXd hessian = sums_at(p).hessian;
+  Eigen::MatrixXd differences(5, 5), stiffness = Eigen::MatrixXd::Zero(5, 5);
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(5, i);
+    differences.col(i) = (sums_at(p + step).lagrangian - sums_at(p - step).lagrangian) / (2 * h);
+  }
+  // The rows of one corner have one gradient g, slack s and multiplier z: their stiffness is z / s g g'.
+  const std::vector<double> slacks = rows.values(start);
+  const double least = *std::min_element(slacks.begin(), slacks.end());
+  const auto at_corner = static_cast<double>(
+      std::count_if(slacks.begin(), slacks.end(), [&](double slack) { return slack < least + 1e-6; }));
+  const double s = std::max(least, 0.03), z = kMu / s;
+  const Eigen::VectorXd g = -sums_at(p).lagrangian / (at_corner * z);
+  stiffness = at_corner * z / s * g * g.transpose();
+  EXPECT_LT(least, 0.1);
+  EXPECT_LT((hessian - stiffness - differences).norm(), 0.03 * differences.norm());
 }
 
 TEST(JointSegment, DerivativesAreThoseOfDifferences) {
