@@ -12,8 +12,9 @@ constexpr double kStep_m = 1e-4, kBendStep_m = 0.01;  ///< of differences
 constexpr double kActive = 1e-6, kFlat = 1e-9;
 constexpr double kLeastSlack_m = 0.03;
 constexpr double kPart_m = 0.6, kMostParts = 24;
-constexpr double kOverlap = 0.25;  ///< of a part at each end
-constexpr double kLook_m = 0.1, kMostLooks = 24, kCloser = 0.1;
+constexpr double kOverlap = 0.25;                      ///< of a part at each end
+constexpr double kLook_m = 0.1, kPolygonLook_m = 0.2;  ///< a polygon's slack costs far more
+constexpr double kMostLooks = 24, kCloser = 0.1;
 constexpr double kLeastOpening_per_m = 0.1;
 
 Pose on_floor(const Pose& frame, const Pose& pose) {
@@ -48,11 +49,12 @@ ClearanceRows::Place ClearanceRows::place(const PathGeometry& geometry, std::siz
   return joined ? Place{piece + 1, beyond(piece + 1, share - 1)} : Place{piece, 1};
 }
 
-/// Looks every kLook_m, then at the vertex of the parabola through the least look and its neighbors, and at
+/// Looks along the part, then at the vertex of the parabola through the least look and its neighbors, and at
 /// that of a closer one: the slopes are those at the place, so it must be near.
 ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, const Part& part) const {
   const double length_m = (part.to - part.from) * geometry.length_m(part.piece);
-  const int looks = static_cast<int>(std::clamp(std::ceil(length_m / kLook_m), 2.0, kMostLooks));
+  const int looks = static_cast<int>(std::clamp(
+      std::ceil(length_m / (program_.checker->is_disc() ? kLook_m : kPolygonLook_m)), 2.0, kMostLooks));
   const double step = (part.to - part.from) / looks;
   const auto look = [&](double share) {
     const Place at = place(geometry, part.piece, share);
