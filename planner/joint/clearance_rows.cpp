@@ -126,7 +126,7 @@ void ClearanceRows::add(Part& part, const Nearest& at, PathGeometry& geometry, d
   const Pose pose = geometry.near_pose(at.place.piece, at.place.share);
   const Slopes by = slopes(pose, at.slack_m);
   const LocalPose local = geometry.local(at.place.piece, at.place.share);
-  const auto places = geometry.gradient(part.piece, local);
+  const auto places = geometry.gradient(at.place.piece, local);
   part.gradient = by.x * places.col(0) + by.y * places.col(1) + by.heading * places.col(2);
   const double z = part.row.z;
   blocks.gradient -= part.row.push(mu) * part.gradient;
