@@ -24,6 +24,7 @@ constexpr double kDisplacementWeight = 2;  ///< of the path's displacement in th
 constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the least complementarity
 constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
+constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
 
 /// A part of a piece between two nodes of the speed.
 struct Part {
@@ -551,6 +552,7 @@ JointSolution Newton::run() {
     direction();
     if (!dp_.allFinite() || !db_.allFinite()) break;
     search(step_rows());
+    if (step_ < kStalled) break;
     lower_barrier(sums);
   }
   solution.parameters = p_;

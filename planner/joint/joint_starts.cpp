@@ -96,20 +96,17 @@ struct Course {
     const auto after = std::lower_bound(tau_m.begin() + 1, tau_m.end() - 1, tau) - tau_m.begin();
     return place_m[static_cast<std::size_t>(after - 1)];
   }
-  double phi_at(double tau) const {
-    const auto after = std::upper_bound(tau_m.begin(), tau_m.end(), tau) - tau_m.begin();
-    return phi_rad[static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(phi_rad.size()) - 1))];
-  }
 };
 
 Course course_of(std::span<const PathPiece> pieces, double half_track_m) {
-  constexpr int kLooks = 120;
+  constexpr double kSample_m = 0.05, kLeastSamples = 120;
   Course course;
   for (const PathPiece& piece : pieces) {
     const double length = piece_length(piece);
-    for (int i = 0; i < kLooks; ++i) {
-      const double step = length / kLooks;
+    const double samples =
+        is_turn(piece) ? kLeastSamples : std::max(kLeastSamples, std::ceil(length / kSample_m));
+    const double step = length / samples;
+    for (double i = 0; i < samples; ++i) {
       if (is_turn(piece)) {
         course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi, piece_point(piece, 0).pose);
         continue;
@@ -119,6 +116,26 @@ Course course_of(std::span<const PathPiece> pieces, double half_track_m) {
     }
   }
   return course;
+}
+
+/// Direction at knots, linear in between, with the least square error: what it turns between the knots is
+/// what the course turns.
+Eigen::VectorXd projected(const Course& course, const std::vector<double>& knots) {
+  const auto count = static_cast<Eigen::Index>(knots.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(count, count) * 1e-9;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
+    const double weight = course.tau_m[i + 1] - course.tau_m[i];
+    const double tau = 0.5 * (course.tau_m[i] + course.tau_m[i + 1]);
+    while (k + 2 < knots.size() && knots[k + 1] < tau) ++k;
+    const double share = (tau - knots[k]) / (knots[k + 1] - knots[k]);
+    const Eigen::Vector2d hats{1 - share, share};
+    const auto at = static_cast<Eigen::Index>(k);
+    normal.block<2, 2>(at, at) += weight * hats * hats.transpose();
+    right.segment<2>(at) += weight * course.phi_rad[i] * hats;
+  }
+  return normal.ldlt().solve(right).cwiseMin(kMostPhi_rad).cwiseMax(-kMostPhi_rad);
 }
 
 Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std::size_t count) {
@@ -137,11 +154,11 @@ Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std:
     knots.push_back(std::max(course.tau_m[at], knots.back() + kShortestPiece_m));
   }
   knots.push_back(std::max(whole_m, knots.back() + kShortestPiece_m));
+  const Eigen::VectorXd phi_rad = projected(course, knots);
   Sketch sketch;
-  const auto phi = [&](double tau) { return std::clamp(course.phi_at(tau), -kMostPhi_rad, kMostPhi_rad); };
   for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    sketch.parts.push_back({.from_rad = phi(knots[k]),
-                            .to_rad = phi(knots[k + 1]),
+    sketch.parts.push_back({.from_rad = phi_rad[static_cast<Eigen::Index>(k)],
+                            .to_rad = phi_rad[static_cast<Eigen::Index>(k) + 1],
                             .length_m = knots[k + 1] - knots[k],
                             .through_m = course.place_at(knots[k + 1])});
   return sketch;

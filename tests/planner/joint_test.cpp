@@ -11,6 +11,7 @@
 #include "planner/joint/joint_search.hpp"
 #include "planner/joint/joint_segment.hpp"
 #include "planner/joint/path_geometry.hpp"
+#include "planner/joint/start_fit.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -243,6 +244,50 @@ TEST(JointSegment, PowerIsTheModels) {
       EXPECT_NEAR(motor_power_W(law.wheel[side], motion, site.wheel_direction[side]), wheels[side].power_W,
                   1e-9);
   }
+}
+
+// Corridors of 9 m between bends of 1 m: one piece of path, 70 m long.
+Path winding_path(double half_track_m) {
+  std::vector<CurveSegment> segments;
+  Pose here;
+  const auto add = [&](double from_rad, double to_rad, double length_m) {
+    const DirectionSegment next(here, {from_rad, to_rad, length_m, half_track_m});
+    here = next.at(length_m).pose;
+    segments.push_back(next);
+  };
+  for (const double side : {1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0}) {
+    add(0, 0, 9);
+    add(0, side * 0.45, 0.6);
+    add(side * 0.45, 0, 0.6);
+  }
+  add(0, 0, 2);
+  return {{Curve(std::move(segments), Direction::forward)}};
+}
+
+TEST(JointStart, AlongALongPathIsThatPath) {
+  const double half_track_m = even_nomad().geometry.half_track_m;
+  const Path path = winding_path(half_track_m);
+  const Pose goal = path.end();
+  Start start = assemble({along_path(path, half_track_m, 34)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}}, {},
+                         half_track_m, 5);
+  start.program.laws = {law_of(even_nomad())};
+  follow_waypoints(start.program, start.parameters);
+  const Path begun = paths_of(start.program, start.parameters).front();
+  const auto places = [](const Path& along) {
+    std::vector<Pose> all;
+    for (double s = 0; s < along.distance_m(); s += 0.05)
+      all.push_back(piece_point(along.pieces.front(), s).pose);
+    return all;
+  };
+  const std::vector<Pose> wanted = places(path);
+  double worst_m = 0;
+  for (const Pose& at : places(begun)) {
+    double nearest_m = kNoLimit;
+    for (const Pose& there : wanted)
+      nearest_m = std::min(nearest_m, std::hypot(at.x_m - there.x_m, at.y_m - there.y_m));
+    worst_m = std::max(worst_m, nearest_m);
+  }
+  EXPECT_LT(worst_m, 0.2);
 }
 
 TEST(Joint, ReachesTheEndPoseToRounding) {
