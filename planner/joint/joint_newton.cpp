@@ -25,6 +25,9 @@ constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the leas
 constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
 constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
+/// A cost that changes by less in so many steps has converged: near obstacles the rest is a flat valley.
+constexpr double kNoGain = 1e-4, kNearTolerance = 5;
+constexpr int kPatience = 8;
 
 /// A part of a piece between two nodes of the speed.
 struct Part {
@@ -43,6 +46,9 @@ class Newton {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
     bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out
     double error() const { return std::max({complementarity, primal, 0.1 * dual}) / std::max(cost, 1e-3); }
+    bool is_near(double tolerance) const {
+      return complementarity < kNearTolerance * tolerance * cost && primal < tolerance * cost;
+    }
   };
   struct Values {
     std::vector<SegmentValues<double>> parts{};
@@ -534,12 +540,18 @@ void Newton::lower_barrier(const Sums& sums) {
 JointSolution Newton::run() {
   begin_rows();
   JointSolution solution;
+  std::array<double, kPatience> recent;  // costs
+  recent.fill(kNoLimit);
   for (;; ++solution.steps) {
     const Sums sums = assemble();
     solution.cost_J = sums.cost / scale_;
     solution.duration_s = sums.duration_s;
     const double error = sums.error();
-    solution.converged = error < options_.tolerance;
+    double& before = recent[static_cast<std::size_t>(solution.steps % kPatience)];
+    const bool gains = !(std::abs(before - sums.cost) < kNoGain * sums.cost);
+    before = sums.cost;
+    solution.converged =
+        error < options_.tolerance || (!gains && !sums.lost && sums.is_near(options_.tolerance));
     solution.feasible = !sums.lost && sums.primal < kFeasible * sums.cost && errors_.norm() < kFeasible;
     if (solution.converged || sums.lost || !std::isfinite(error) || solution.steps == options_.most_steps)
       break;

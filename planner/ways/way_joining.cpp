@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstdlib>
 
 #include "planner/joint/joint_search.hpp"
 #include "planner/legs/leg_timing.hpp"
@@ -17,22 +20,6 @@ constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
 constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
 const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
-
-/// Cost of driving a leg along a path by the certified profile at the leg's price; infinite: none.
-double certified_J(const Path& path, std::size_t leg, const ChoiceContext& context) {
-  LegTiming timing(stretches_of(path, context.mission.legs[leg], leg, context.mission, context.world,
-                                context.plant, context.options),
-                   context.options.answers);
-  const std::vector<ProfileResult>& results = timing.solve(context.price_W, SolverChoice::fast);
-  double sum_J = 0;
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    const std::optional<Profile>& profile = results[k].profile;
-    if (!profile) return kNoLimit;
-    sum_J += energy_by_cause(path_motion(timing.stretches()[k]), *profile).total_J() +
-             context.finite_price_W() * profile->duration_s();
-  }
-  return sum_J;
-}
 
 /// A limit of zero forbids every curve.
 bool may_join(const LegRequest& leg, const Limits& limits) {
@@ -222,19 +209,67 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
   return {legs};
 }
 
-/// The legs' cost with the paths of the joint program in place of the present ones; infinite: not drivable.
-double RefinedRun::joined_J(std::size_t first, const joint::JointPaths& joined) {
-  for (std::size_t i = 0; i < joined.legs.size(); ++i) {
-    take(first + i, joined.legs[i]);
-    parts_[first + i].spline.reset();
-    parts_[first + i].barred = false;
-  }
-  const std::vector<LegPath> tried = paths();
+/// Cost of the legs along their present paths on the plan's grid, turns at their stops included.
+double RefinedRun::driven_J(std::size_t first, std::size_t count) const {
+  const std::vector<LegPath> all = paths();
   double cost_J = 0;
-  for (std::size_t k = first; k < first + joined.legs.size(); ++k)
-    cost_J +=
-        parts_[k].driving.drivable ? certified_J(tried[k].path, run_.first + k, run_.contexts[k]) : kNoLimit;
+  for (std::size_t k = first; k < first + count && std::isfinite(cost_J); ++k) {
+    const ChoiceContext& context = run_.contexts[k];
+    const std::size_t leg = run_.first + k;
+    cost_J += score_path(all[k].path, context.mission.legs[leg], leg, context, context.options.nodes)
+                  .cost_J(context.finite_price_W());
+  }
   return cost_J;
+}
+
+/// Whether the legs have profiles along their present paths within every limit.
+bool RefinedRun::drivable(std::size_t first, std::size_t count) const {
+  const std::vector<LegPath> all = paths();
+  for (std::size_t k = first; k < first + count; ++k) {
+    const std::size_t leg = run_.first + k;
+    if (!is_drivable(all[k].path, run_.contexts[k].mission.legs[leg], leg, run_.contexts[k])) return false;
+  }
+  return true;
+}
+
+void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
+  for (std::size_t i = 0; i < joined.legs.size(); ++i) {
+    Part& part = parts_[first + i];
+    part.path = joined.legs[i];
+    part.leaves_rad = part.path.start().heading_rad;
+    part.arrives_rad = part.path.end().heading_rad;
+    part.refined = true;
+    part.barred = false;
+  }
+}
+
+/// The cheapest of the present paths and those of the joint program; false where that program found none.
+bool RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
+                               std::array<Starts, 2> starts, double present_J) {
+  struct Candidate {
+    double cost_J{};
+    std::vector<Part> parts{};
+  };
+  std::vector<Candidate> candidates;
+  const std::vector<Part> present = parts_;
+  for (Starts& group : starts)
+    for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
+      parts_ = present;
+      take(first, joined);
+      if (const double cost_J = driven_J(first, count); std::isfinite(cost_J))
+        candidates.push_back({cost_J, parts_});
+    }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost_J < b.cost_J; });
+  for (Candidate& candidate : candidates) {
+    if (!(candidate.cost_J < present_J)) break;
+    parts_ = std::move(candidate.parts);
+    if (!drivable(first, count)) continue;
+    for (std::size_t k = first; k < first + count; ++k) parts_[k].driving = driving(k, parts_[k].path);
+    return true;
+  }
+  parts_ = present;
+  return !candidates.empty();
 }
 
 /// False where it found no drive along a path of its own.
@@ -244,12 +279,12 @@ bool RefinedRun::join(std::size_t first, std::size_t count) {
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
   const std::vector<LegPath> present = paths();
   std::vector<Sketch> from_present;
-  double found_J = 0;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
-  bool worth_it = false;
+  bool worth_it = false, barred = false;
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
+    barred = barred || parts_[k].barred;
     worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
   }
   if (!worth_it) return true;
@@ -260,26 +295,14 @@ bool RefinedRun::join(std::size_t first, std::size_t count) {
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
-    found_J += parts_[k].barred ? kNoLimit : certified_J(present[k].path, run_.first + k, run_.contexts[k]);
   }
+  const double present_J = barred ? kNoLimit : driven_J(first, count);
+  if (getenv("JP_DBG")) fprintf(stderr, "join %zu+%zu found %.2f\n", first, count, 0.0);
   auto starts = joint_starts(first, query);
   if (count > 1)
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
-  if (std::isfinite(found_J)) starts[0].push_back(std::move(from_present));
-  const std::vector<Part> before = parts_;
-  std::vector<Part> best = parts_;
-  bool found = false;
-  for (auto& group : starts)
-    for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
-      parts_ = before;
-      const double cost_J = joined_J(first, joined);
-      found = found || std::isfinite(cost_J);
-      if (!(cost_J < found_J)) continue;
-      found_J = cost_J;
-      best = parts_;
-    }
-  parts_ = std::move(best);
-  return found;
+  if (std::isfinite(present_J)) starts[0].push_back(std::move(from_present));
+  return take_cheapest(first, count, query, std::move(starts), present_J);
 }
 
 bool RefinedRun::barred() const {
@@ -290,7 +313,7 @@ void RefinedRun::join(bool swings) {
   const std::size_t legs = parts_.size();
   for (std::size_t first = 0;; first += kMostTogether - 1) {
     const std::size_t count = std::min(kMostTogether, legs - first);
-    if (!join(first, count) && swings) {
+    if (!join(first, count) && swings && !std::getenv("JP_NOSWING")) {
       swing(first, count);
       join(first, count);
     }

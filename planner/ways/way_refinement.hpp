@@ -84,7 +84,11 @@ class RefinedRun {
                       const std::vector<RouteDrive>& drives) const;
   std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;
   Starts one_by_one(std::size_t first, const joint::JointQuery& query) const;
-  double joined_J(std::size_t first, const joint::JointPaths& joined);
+  double driven_J(std::size_t first, std::size_t count) const;
+  bool drivable(std::size_t first, std::size_t count) const;
+  void take(std::size_t first, const joint::JointPaths& joined);
+  bool take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
+                     std::array<Starts, 2> starts, double present_J);
   bool join(std::size_t first, std::size_t count);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;

@@ -52,9 +52,9 @@ PathScore& PathScore::operator+=(const PathScore& other) {
 }
 
 PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
-                     const ChoiceContext& context) {
+                     const ChoiceContext& context, std::size_t nodes) {
   PlanOptions options = context.options;
-  options.nodes = std::min(options.nodes, kScoringNodes);
+  options.nodes = std::min(options.nodes, nodes);
   std::vector<ProfileRequest> stretches =
       stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, options);
   for (ProfileRequest& request : stretches)

@@ -38,7 +38,7 @@ inline constexpr std::size_t kScoringNodes = 60;
 /// The score of a path on a leg, by inner profile solves on a coarse grid (`draft`): costs of ways differ by
 /// percents, costs on different grids by hundredths of a percent.
 [[nodiscard]] PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
-                                   const ChoiceContext& context);
+                                   const ChoiceContext& context, std::size_t nodes = kScoringNodes);
 
 /// True if a path has profiles within every limit, also between the nodes; draft scores check nodes only.
 [[nodiscard]] bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
