@@ -52,10 +52,10 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn in place there), refinement, joint (path and speed together); or "
+                "shortest), stops (turn in place there), refinement (path and speed together); or "
                 "baselines, path_bound (several: with commas)")
         .comma_separated()
-        .one_of({"corners", "routes", "stops", "refinement", "joint", "baselines", "path_bound"});
+        .one_of({"corners", "routes", "stops", "refinement", "baselines", "path_bound"});
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
@@ -109,7 +109,6 @@ class PlanCommand : public Command {
     if (step == "routes") options_.steps.routes = false;
     if (step == "stops") options_.steps.stops = false;
     if (step == "refinement") options_.steps.refinement = false;
-    if (step == "joint") options_.steps.joint = false;
     if (step == "baselines") options_.baselines = false;
     if (step == "path_bound") options_.path_bound = false;
   }

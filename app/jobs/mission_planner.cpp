@@ -51,7 +51,7 @@ std::string text_of(const PlanOptions& o) {
             {"nodes", o.nodes},
             {"accuracy", o.accuracy},
             {"solver", static_cast<int>(o.solver)},
-            {"steps", {o.steps.corners, o.steps.routes, o.steps.stops, o.steps.refinement, o.steps.joint}},
+            {"steps", {o.steps.corners, o.steps.routes, o.steps.stops, o.steps.refinement}},
             {"baselines", o.baselines}};
   if (o.path_bound) json["path_bound"] = true;
   return json.dump();

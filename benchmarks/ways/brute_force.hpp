@@ -4,7 +4,7 @@
 
 #include "benchmarks/ways/cma_es.hpp"
 #include "benchmarks/ways/poses.hpp"
-#include "planner/path/shape/free_spline.hpp"
+#include "benchmarks/ways/free_spline.hpp"
 
 namespace joulepath::ways {
 

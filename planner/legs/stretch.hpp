@@ -13,8 +13,7 @@ struct WaySteps {
   bool corners{true};     ///< else stop, turn, go at every corner
   bool routes{true};      ///< else the shortest route
   bool stops{true};       ///< else the robot turns on the spot at stops
-  bool refinement{true};  ///< else corners stay as they were blended
-  bool joint{true};       ///< part of the refinement: else path and speed are not optimized together
+  bool refinement{true};  ///< path and speed together; else corners stay as they were blended
 };
 
 struct PlanOptions {

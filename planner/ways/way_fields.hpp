@@ -52,8 +52,8 @@ void each_field(Archive& archive, PayloadAlongLeg& value) {
 
 template <class Archive>
 void each_field(Archive& archive, WaySteps& value) {
-  auto& [corners, routes, stops, refinement, joint] = value;
-  archive(corners, routes, stops, refinement, joint);
+  auto& [corners, routes, stops, refinement] = value;
+  archive(corners, routes, stops, refinement);
 }
 
 /// Everything on which the way of a leg between two stations depends, except its neighbors.

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstdlib>
 
 #include "planner/joint/joint_search.hpp"
 #include "planner/legs/leg_timing.hpp"
@@ -20,12 +19,6 @@ constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
 constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
 const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
-
-/// A limit of zero forbids every curve.
-bool may_join(const LegRequest& leg, const Limits& limits) {
-  return leg.start_speed_m_s == 0 && leg.end_speed_m_s == 0 && limits.yaw_rate_rad_s > 0 &&
-         limits.lateral_acceleration_m_s2 > 0 && limits.yaw_acceleration_rad_s2 > 0;
-}
 
 /// More for a longer path and for one that turns more.
 std::size_t pieces_for(const Path& path) {
@@ -243,8 +236,8 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
   }
 }
 
-/// The cheapest of the present paths and those of the joint program; false where that program found none.
-bool RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
+/// The cheapest of the present paths and those of the joint program.
+void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
                                std::array<Starts, 2> starts, double present_J) {
   struct Candidate {
     double cost_J{};
@@ -266,14 +259,20 @@ bool RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
     parts_ = std::move(candidate.parts);
     if (!drivable(first, count)) continue;
     for (std::size_t k = first; k < first + count; ++k) parts_[k].driving = driving(k, parts_[k].path);
-    return true;
+    return;
   }
   parts_ = present;
-  return !candidates.empty();
 }
 
-/// False where it found no drive along a path of its own.
-bool RefinedRun::join(std::size_t first, std::size_t count) {
+/// A limit of zero forbids every curve; the joint program begins and ends at rest.
+bool RefinedRun::may_join(std::size_t k) const {
+  const LegRequest& asked = run_.contexts[k].mission.legs[run_.first + k];
+  const Limits limits = law_of(k, 1).limits;
+  return asked.start_speed_m_s == 0 && asked.end_speed_m_s == 0 && limits.yaw_rate_rad_s > 0 &&
+         limits.lateral_acceleration_m_s2 > 0 && limits.yaw_acceleration_rad_s2 > 0;
+}
+
+void RefinedRun::join(std::size_t first, std::size_t count) {
   joint::JointQuery query{.start = first == 0 ? request_.start : request_.legs[first - 1].goal,
                           .checker = &run_.contexts[first].space->checker()};
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
@@ -287,11 +286,10 @@ bool RefinedRun::join(std::size_t first, std::size_t count) {
     barred = barred || parts_[k].barred;
     worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
   }
-  if (!worth_it) return true;
+  if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {
     query.laws.push_back(law_of(k, 1));
     query.reverse_laws.push_back(law_of(k, -1));
-    if (!may_join(run_.contexts[k].mission.legs[run_.first + k], query.laws.back().limits)) return false;
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
@@ -302,22 +300,22 @@ bool RefinedRun::join(std::size_t first, std::size_t count) {
   if (count > 1)
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
   if (std::isfinite(present_J)) starts[0].push_back(std::move(from_present));
-  return take_cheapest(first, count, query, std::move(starts), present_J);
+  take_cheapest(first, count, query, std::move(starts), present_J);
 }
 
 bool RefinedRun::barred() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.barred; });
 }
 
-void RefinedRun::join(bool swings) {
+/// Groups of consecutive legs share a leg: its second path knows both neighbors.
+void RefinedRun::join() {
   const std::size_t legs = parts_.size();
-  for (std::size_t first = 0;; first += kMostTogether - 1) {
-    const std::size_t count = std::min(kMostTogether, legs - first);
-    if (!join(first, count) && swings && !std::getenv("JP_NOSWING")) {
-      swing(first, count);
-      join(first, count);
-    }
-    if (first + count == legs) return;
+  for (std::size_t first = 0; first < legs;) {
+    std::size_t end = first;
+    while (end < legs && end < first + kMostTogether && may_join(end)) ++end;
+    if (end > first) join(first, end - first);
+    const bool goes_on = end < legs && end == first + kMostTogether && may_join(end);
+    first = goes_on ? end - 1 : std::max(end, first + 1);
   }
 }
 

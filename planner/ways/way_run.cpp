@@ -86,7 +86,6 @@ class RunChoice {
   }
 
   std::vector<ChainChoice> choose_chain();
-  bool depends_on_place() const;
   std::vector<ChainChoice> ways_without_room() const;
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
@@ -197,20 +196,12 @@ std::vector<ChainChoice> RunChoice::ways_without_room() const {
   return chain.size() == size() ? chain : std::vector<ChainChoice>{};
 }
 
-/// The program of path and speed takes effects as they are at a leg's start and knows no caps by place.
-bool RunChoice::depends_on_place() const {
-  const ChoiceContext& any = context(0);
-  return !any.plant.effects.empty() || any.world.speed_mask || !any.mission.speed_zones.empty();
-}
-
 std::vector<LegPath> RunChoice::choose() {
   std::vector<ChainChoice> chain = choose_chain();
   if (chain.empty()) chain = ways_without_room();
   if (chain.empty()) return {};
   RefinedRun refined(request_, chain, run_);
-  const bool refines = !run_.quick && steps_.refinement;
-  if (refines && (!steps_.joint || depends_on_place())) refined.swing(0, size());
-  if (refined.barred() || (refines && steps_.joint)) refined.join(refines);
+  if (refined.barred() || (!run_.quick && steps_.refinement)) refined.join();
   if (refined.barred()) return {};
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {

@@ -24,7 +24,7 @@ CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/text/yaml_te
 
 # The studio's page is compiled from these by emscripten, whose standard library has no algorithms on ranges.
 # Design: docs/decisions/0702-studio-and-reports.md
-PAGE, PROGRAM_ALONE = re.compile("model/|planner/|extensions/studio/answer/"), re.compile("model/(simulation|estimate)|planner/controller|ipopt_solver|search/search.cpp|ompl_space|ways/spline_search")
+PAGE, PROGRAM_ALONE = re.compile("model/|planner/|extensions/studio/answer/"), re.compile("model/(simulation|estimate)|planner/controller|ipopt_solver|search/search.cpp|ompl_space")
 
 
 def room(path, rooms):

@@ -407,7 +407,7 @@ TEST(Joint, KeepsItsClearanceAndPassesADoorInACurve) {
   EXPECT_FALSE(checker.first_collision(found.front().legs.front()));
 }
 
-// The joint program is a further candidate: a plan with it is never dearer.
+// What the joint program finds is a further candidate: a plan with it is never dearer.
 TEST(Joint, APlanIsNeverDearerWithIt) {
   for (int trial = 0; trial < 4; ++trial) {
     MissionRequest mission{.name = "pose", .clearance_m = 0.05};
@@ -418,7 +418,7 @@ TEST(Joint, APlanIsNeverDearerWithIt) {
     PlanOptions options{.solver = SolverChoice::fast, .nodes = 100, .accuracy = 1e-3, .baselines = false};
     const MissionWorld world{.robot = testing::nomad(), .map = door()};
     const double with_J = plan_mission(mission, world, options).energy.total_J();
-    options.steps.joint = false;
+    options.steps.refinement = false;
     EXPECT_LE(with_J, plan_mission(mission, world, options).energy.total_J() * (1 + 1e-6)) << trial;
   }
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/path/shape/nlopt_run.hpp"
+#include "extensions/studies/sweep/nlopt_run.hpp"
 
 // Method: [Rowan1990]
 namespace joulepath {

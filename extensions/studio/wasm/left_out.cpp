@@ -5,7 +5,6 @@
 
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/path/search/search.hpp"
-#include "planner/ways/spline_search.hpp"
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/registry.hpp"
@@ -39,7 +38,6 @@ JerkSolution solve_with_ipopt(const JerkProgram&, const IpoptOptions&) {
 SearchResult search_polyline(const FreeSpace&, const SearchRequest&) { refuse("a search for a route"); }
 double polyline_cost(const std::vector<Point2>&, const TravelCost&) { refuse("a search for a route"); }
 
-std::optional<SplineSearchResult> minimize(const SplineSearch&) { refuse("a search for a curve"); }
 
 OccupancyGrid read_map(const std::string&, const NamedBy&, const ReadOptions&) { refuse("a map file"); }
 std::string map_image_file(const std::string&, const ReadOptions&) { refuse("a map file"); }

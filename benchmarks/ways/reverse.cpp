@@ -1,5 +1,5 @@
-// What optimizing path and speed together saves, or driving backward, and what it takes.
-// usage: bench_ways_joint joint|reverse COUNT SEED NOTE [KIND...]: plans with and without it as Markdown
+// What driving backward saves, and what it takes.
+// usage: bench_ways_reverse COUNT SEED NOTE [KIND...]: plans with and without it as Markdown
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,15 +20,10 @@ struct Planned {
   double energy_J{}, cpu_s{};
 };
 
-/// What the plans of a comparison differ in.
-enum class Difference { joint, reverse };
-
-Planned planned_case(const JointCase& one, Difference difference, bool with) {
-  PlanOptions options{.solver = SolverChoice::fast, .nodes = 200, .baselines = false};
-  options.steps.joint = with || difference != Difference::joint;
+Planned planned_case(const JointCase& one, bool with) {
+  const PlanOptions options{.solver = SolverChoice::fast, .nodes = 200, .baselines = false};
   MissionWorld world = one.world->world;
-  if (with && difference == Difference::reverse)
-    world.robot.limits->reverse_speed_m_s = world.robot.limits->speed_m_s;
+  if (with) world.robot.limits->reverse_speed_m_s = world.robot.limits->speed_m_s;
   const std::clock_t before = std::clock();
   const Plan plan = plan_mission(one.mission, world, options, &one.world->space);
   const double cpu_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
@@ -55,13 +50,12 @@ std::string percent(double value) {
   return std::isnan(value) ? "-" : text;
 }
 
-void compare_kind(const JointFloors& floors, Difference difference, const std::string& kind, unsigned count,
-                  unsigned seed) {
+void compare_kind(const JointFloors& floors, const std::string& kind, unsigned count, unsigned seed) {
   std::vector<double> change_percent, before_s, after_s;
   int new_ones = 0, lost = 0, none = 0, dearer = 0;
   for (unsigned index = 0; index < count; ++index) {
     const JointCase one = joint_case(floors, kind, seed, index);
-    const Planned before = planned_case(one, difference, false), after = planned_case(one, difference, true);
+    const Planned before = planned_case(one, false), after = planned_case(one, true);
     before_s.push_back(before.cpu_s);
     after_s.push_back(after.cpu_s);
     const bool had = std::isfinite(before.energy_J), has = std::isfinite(after.energy_J);
@@ -92,43 +86,31 @@ void compare_kind(const JointFloors& floors, Difference difference, const std::s
   std::fflush(stdout);
 }
 
-const char* title_of(Difference difference) {
-  return difference == Difference::joint ? "Path and speed together" : "Driving backward";
-}
-
-const char* setting_of(Difference difference) {
-  return difference == Difference::joint
-             ? "without the joint program (`--without joint`) and with it"
-             : "for a robot that a search never drives backward and for the same with `limits: "
-               "{reverse_speed_m_s}` equal to its speed";
-}
-
-void compare_all(Difference difference, unsigned count, unsigned seed, const char* note,
-                 const std::vector<std::string>& kinds) {
+void compare_all(unsigned count, unsigned seed, const char* note, const std::vector<std::string>& kinds) {
   std::printf(
-      "# %s\n\n%s\n\nEach case is planned %s; 10 W of standby, time is free.\nKinds of cases: "
-      "`benchmarks/ways/joint_cases.hpp`.\n\n",
-      title_of(difference), note, setting_of(difference));
+      "# Driving backward\n\n%s\n\nEach case is planned for a robot that a search never drives backward and "
+      "for "
+      "the same with `limits: {reverse_speed_m_s}` equal to its speed; 10 W of standby, time is free.\nKinds "
+      "of "
+      "cases: `benchmarks/ways/joint_cases.hpp`.\n\n",
+      note);
   std::puts(
       "| cases | planned by both | energy, mean | median (90 % interval) | best | worst | dearer by 0.05 % "
       "or more | planned "
       "by none / only with / only without | CPU each without | with "
       "|\n|---|---|---|---|---|---|---|---|---|---|");
   const JointFloors floors;
-  for (const std::string& kind : kinds) compare_kind(floors, difference, kind, count, seed);
+  for (const std::string& kind : kinds) compare_kind(floors, kind, count, seed);
 }
 
 }  // namespace
 }  // namespace joulepath::ways
 
 int main(int argc, char** argv) {
-  using joulepath::ways::Difference;
-  if (argc < 5)
-    return std::fputs("usage: bench_ways_joint joint|reverse COUNT SEED NOTE [KIND...]\n", stderr), 2;
-  std::vector<std::string> kinds(argv + 5, argv + argc);
+  if (argc < 4) return std::fputs("usage: bench_ways_reverse COUNT SEED NOTE [KIND...]\n", stderr), 2;
+  std::vector<std::string> kinds(argv + 4, argv + argc);
   if (kinds.empty()) kinds = joulepath::ways::joint_kinds();
-  joulepath::ways::compare_all(argv[1] == std::string("reverse") ? Difference::reverse : Difference::joint,
-                               static_cast<unsigned>(std::stoul(argv[2])),
-                               static_cast<unsigned>(std::stoul(argv[3])), argv[4], kinds);
+  joulepath::ways::compare_all(static_cast<unsigned>(std::stoul(argv[1])),
+                               static_cast<unsigned>(std::stoul(argv[2])), argv[3], kinds);
   return 0;
 }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "planner/mission/mission.hpp"
-#include "planner/ways/spline_search.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -46,7 +45,7 @@ Path one_bezier(const Pose& start, const BezierPoints& points_m) {
 }
 
 // Control points set by hand: one cubic that leaves in the robot's heading and swings around.
-TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
+TEST(LegCurve, IsNoDearerThanOneHandSetBezierCurve) {
   const Pose back{20, 20, 150 * std::numbers::pi / 180};
   const MissionRequest behind = to_goal(back, {24, 20});
   const double swung_J = planned_J(behind);
@@ -61,7 +60,7 @@ TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
 // Where the goal lies behind the robot, points between its heading and the goal lie on one line: every curve
 // through them has a cusp. The curve has to swing aside. The hand-set ones bend at up to 39 per metre, the
 // search's own at 25 at most: over 5 m this costs up to 0.25 %.
-TEST(Swing, SwingsRoundToAGoalBehindTheRobot) {
+TEST(LegCurve, SwingsRoundToAGoalBehindTheRobot) {
   for (const double turn_deg : {172.0, -176.0, 179.0})
     for (const double reach_m : {1.5, 2.0, 5.0}) {
       const double heading_rad = turn_deg * std::numbers::pi / 180, side = turn_deg < 0 ? 1 : -1;
@@ -77,7 +76,7 @@ TEST(Swing, SwingsRoundToAGoalBehindTheRobot) {
 }
 
 // The same with the goal's heading asked: both ends swing.
-TEST(Swing, SwingsRoundAtBothEnds) {
+TEST(LegCurve, SwingsRoundAtBothEnds) {
   for (const double heading_rad : {-3.05, 3.0}) {
     const Plan plan = plan_mission(to_goal({20, 20, 3.1}, {22.5, 20}, heading_rad), empty_floor(), kQuick);
     for (const StretchPlan& stretch : plan.legs.front().stretches)
@@ -87,14 +86,14 @@ TEST(Swing, SwingsRoundAtBothEnds) {
 
 // Also where the cheapest way with a lead along the start's heading is already a curve, curves straight to
 // the goal are tried. A brute-force search over splines finds 84.7 J; turning in place takes 99.4 J.
-TEST(Swing, IsTriedFromTheStraightLineWhereALeadIsCheaperThanATurn) {
+TEST(LegCurve, IsTriedFromTheStraightLineWhereALeadIsCheaperThanATurn) {
   const MissionRequest mission = to_goal({20, 20, 2.07096}, {18.25321, 19.31798}, 1.07146);
   const Plan plan = plan_mission(mission, empty_floor(), kQuick);
   EXPECT_LE(plan.energy.total_J(), 86.5);
   for (const StretchPlan& stretch : plan.legs.front().stretches) EXPECT_FALSE(is_turn(stretch.request.piece));
 }
 
-TEST(Swing, IsNeverDearerThanTurnLineTurnAndArrivesInTheHeadingAsked) {
+TEST(LegCurve, IsNeverDearerThanTurnLineTurnAndArrivesInTheHeadingAsked) {
   std::mt19937 random(11);
   std::uniform_real_distribution<> angle(-std::numbers::pi, std::numbers::pi), reach(0.3, 6.0);
   for (int trial = 0; trial < 10; ++trial) {
@@ -121,7 +120,7 @@ TEST(Swing, IsNeverDearerThanTurnLineTurnAndArrivesInTheHeadingAsked) {
   }
 }
 
-TEST(Swing, AStopWithoutAHeadingIsLeftAsItIsReached) {
+TEST(LegCurve, AStopWithoutAHeadingIsLeftAsItIsReached) {
   MissionRequest mission = to_goal({20, 20, 1.0}, {20.5, 25});
   mission.stations["middle"] = {.x_m = 24, .y_m = 21};
   mission.legs = {{.to = "middle"}, {.to = "goal"}};
@@ -137,11 +136,10 @@ TEST(Swing, AStopWithoutAHeadingIsLeftAsItIsReached) {
 /// Answers that planning a mission needs, counted in a folder that keeps them all.
 std::ptrdiff_t answers_for(const MissionRequest& mission) {
   const auto folder =
-      std::filesystem::path(::testing::TempDir()) / ("swing_answers_" + std::to_string(getpid()));
+      std::filesystem::path(::testing::TempDir()) / ("leg_curve_answers_" + std::to_string(getpid()));
   AnswerCache kept(folder.string());
   PlanOptions options = kQuick;
   options.answers.cache = &kept;
-  options.steps.joint = false;  // its curves are certified, too
   (void)plan_mission(mission, empty_floor(), options);
   const auto is_file = [](const auto& entry) { return entry.is_regular_file(); };
   using Files = std::filesystem::recursive_directory_iterator;
@@ -152,7 +150,7 @@ std::ptrdiff_t answers_for(const MissionRequest& mission) {
 
 /// The search through stops replaces the curves of both legs: only the last curve of a leg gets a profile
 /// with certificate, so that a stop more adds few answers (9 where every curve that is taken gets one).
-TEST(Swing, IsCheckedBetweenTheNodesOncePerLeg) {
+TEST(LegCurve, IsCheckedBetweenTheNodesOncePerLeg) {
   MissionRequest two = to_goal({20, 20, 1.0}, {20.5, 25}), three = two;
   two.stations["a"] = three.stations["a"] = {.x_m = 24, .y_m = 21};
   three.stations["b"] = {.x_m = 26, .y_m = 25};
@@ -182,7 +180,7 @@ MissionRequest along_paths_of(MissionRequest mission, const Plan& plan) {
 
 /// The search has found a curve for another payload that suits this one better only where it ended in a worse
 /// local optimum: with three polished guesses, plans here are 1.9 % above such a path.
-TEST(Swing, IsNotMuchDearerThanAPathFoundForAnotherPayload) {
+TEST(LegCurve, IsNotMuchDearerThanAPathFoundForAnotherPayload) {
   const MissionWorld world{.robot = testing::nomad(), .map = nav2_depot()};
   ASSERT_TRUE(world.map);
   const double payloads_kg[] = {0, 6, 10};
@@ -199,7 +197,7 @@ TEST(Swing, IsNotMuchDearerThanAPathFoundForAnotherPayload) {
     }
 }
 
-TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
+TEST(LegCurve, KeepsItsClearanceFromAWallBesideTheStart) {
   // A wall half a metre to the left of a robot that must turn by half a turn in either direction.
   MissionWorld world = empty_floor();
   for (int row = 206; row < 400; ++row)
@@ -210,50 +208,6 @@ TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
   const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
   for (const StretchPlan& stretch : plan.legs[0].stretches)
     EXPECT_FALSE(space.checker().first_collision(stretch.request.piece));
-}
-
-/// A search for the shortest curve between two places, from a long one.
-SplineSearch shortest_curve(const FootprintChecker& checker) {
-  SplineSearch search{.checker = &checker,
-                      .first = {{.points_m = {{10, 10}, {11, 13}, {13, 8}, {15, 12}, {17, 10}},
-                                 .start_heading_rad = 1,
-                                 .start_handle_m = 1,
-                                 .goal_heading_rad = -1,
-                                 .goal_handle_m = 1}},
-                      .variables = {{{{SplineMember::Kind::knot, 0, 1}}},
-                                    {{{SplineMember::Kind::knot, 0, 2}}},
-                                    {{{SplineMember::Kind::knot, 0, 3}}}}};
-  search.cost = [](const std::vector<Path>& paths) { return paths.front().distance_m(); };
-  search.slopes = [](const std::vector<FreeSpline>& at) {
-    constexpr double kStep_m = 1e-5;
-    SplineSlopes slopes{.by_point_m = std::vector<Point2>(5)};
-    for (std::size_t i = 1; i < 4; ++i)
-      for (std::size_t k = 0; k < 2; ++k) {
-        FreeSpline low = at.front(), high = at.front();
-        low.points_m[i][k] -= kStep_m;
-        high.points_m[i][k] += kStep_m;
-        slopes.by_point_m[i][k] =
-            (free_spline_path(high)->distance_m() - free_spline_path(low)->distance_m()) / (2 * kStep_m);
-      }
-    return std::vector<SplineSlopes>{slopes};
-  };
-  return search;
-}
-
-// A start that stays far above the best cost known is given up; one that beats it runs to its end.
-TEST(SplineSearch, EndsEarlyWhereItCannotBeatTheBestCost) {
-  const MissionWorld world = empty_floor();
-  const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
-  SplineSearch search = shortest_curve(space.checker());
-  const std::optional<SplineSearchResult> whole = minimize(search);
-  ASSERT_TRUE(whole);
-  EXPECT_GT(whole->evaluations, 6);
-  search.cost_to_beat = 0.5 * whole->cost;
-  const std::optional<SplineSearchResult> hopeless = minimize(search);
-  ASSERT_TRUE(hopeless);
-  EXPECT_LE(hopeless->evaluations, 5);
-  search.cost_to_beat = 1.05 * whole->cost;
-  EXPECT_DOUBLE_EQ(minimize(search)->cost, whole->cost);
 }
 
 }  // namespace

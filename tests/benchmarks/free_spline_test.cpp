@@ -1,4 +1,4 @@
-#include "planner/path/shape/free_spline.hpp"
+#include "benchmarks/ways/free_spline.hpp"
 
 #include <gtest/gtest.h>
 
