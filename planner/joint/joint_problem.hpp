@@ -29,10 +29,11 @@ struct Target {
   std::optional<double> heading_rad{};  ///< whole turns included
 };
 
-/// A place that a start passes at the end of a piece, in the frame of the start.
+/// A place, or a pose, that a start passes at the end of a piece, in the frame of the start.
 struct Waypoint {
   std::size_t piece{};
   Point2 at_m{};
+  std::optional<double> heading_rad{};  ///< whole turns included
 };
 
 /// Path and speed of legs as one program. The path begins at the origin with heading 0: `frame` is the start

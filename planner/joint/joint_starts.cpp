@@ -14,6 +14,8 @@ constexpr double kMostArc_rad = 5.2;  ///< of an arc of a word
 constexpr double kNone_rad = 0.03;    ///< a whole turn less than this is none
 constexpr double kRouteRadius_m = 0.25, kBendRadius_m = 0.5;
 constexpr double kMostPhi_rad = 1.4;
+constexpr double kBendWeight = 2;      ///< of phi's change among the knots of a path; of its whole length: 3
+constexpr double kMostJump_rad = 0.3;  ///< of what counts of a jump, which one piece holds
 
 double sense_turn_rad(double turn_rad, int sense) {
   const double shorter = std::remainder(turn_rad, 2 * kPi);
@@ -86,15 +88,18 @@ std::optional<Sketch> word(const Pose& start, const LegGoal& goal, double half_t
 /// Direction phi and place along a path by its length tau.
 struct Course {
   std::vector<double> tau_m{0}, phi_rad{};
-  std::vector<Point2> place_m{};  ///< after each step
-  void add(double length_m, double phi, const Pose& at_end) {
+  std::vector<Point2> place_m{};      ///< after each step
+  std::vector<double> turned_rad{0};  ///< since the begin, as tau
+  void add(double length_m, double phi, double half_track_m, const Pose& at_end) {
     tau_m.push_back(tau_m.back() + length_m);
     phi_rad.push_back(phi);
     place_m.push_back({at_end.x_m, at_end.y_m});
+    turned_rad.push_back(turned_rad.back() + length_m * std::sin(phi) / half_track_m);
   }
-  const Point2& place_at(double tau) const {
-    const auto after = std::lower_bound(tau_m.begin() + 1, tau_m.end() - 1, tau) - tau_m.begin();
-    return place_m[static_cast<std::size_t>(after - 1)];
+  /// The first sample that ends at or after tau, counted from 1.
+  std::size_t after(double tau) const {
+    return static_cast<std::size_t>(std::lower_bound(tau_m.begin() + 1, tau_m.end() - 1, tau) -
+                                    tau_m.begin());
   }
 };
 
@@ -108,11 +113,13 @@ Course course_of(std::span<const PathPiece> pieces, double half_track_m) {
     const double step = length / samples;
     for (double i = 0; i < samples; ++i) {
       if (is_turn(piece)) {
-        course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi, piece_point(piece, 0).pose);
+        course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi, half_track_m,
+                   piece_point(piece, 0).pose);
         continue;
       }
       const double across = half_track_m * piece_bend(piece, (i + 0.5) * step).curvature_per_m;
-      course.add(step * std::hypot(1.0, across), std::atan(across), piece_point(piece, (i + 1) * step).pose);
+      course.add(step * std::hypot(1.0, across), std::atan(across), half_track_m,
+                 piece_point(piece, (i + 1) * step).pose);
     }
   }
   return course;
@@ -138,13 +145,17 @@ Eigen::VectorXd projected(const Course& course, const std::vector<double>& knots
   return normal.ldlt().solve(right).cwiseMin(kMostPhi_rad).cwiseMax(-kMostPhi_rad);
 }
 
-Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std::size_t count) {
+/// `turned_rad`: by what stands before the pieces.
+Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std::size_t count,
+                    double turned_rad) {
   const Course course = course_of(pieces, half_track_m);
   const double whole_m = course.tau_m.back();
   std::vector<double> weight{0.0};
   for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
-    const double change = i > 0 ? std::abs(course.phi_rad[i] - course.phi_rad[i - 1]) : 0.0;
-    weight.push_back(weight.back() + change + 3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
+    const double change =
+        i > 0 ? std::min(std::abs(course.phi_rad[i] - course.phi_rad[i - 1]), kMostJump_rad) : 0.0;
+    weight.push_back(weight.back() + kBendWeight * change +
+                     3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
   }
   std::vector<double> knots{0.0};
   for (std::size_t k = 1; k < count; ++k) {
@@ -156,11 +167,14 @@ Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std:
   knots.push_back(std::max(whole_m, knots.back() + kShortestPiece_m));
   const Eigen::VectorXd phi_rad = projected(course, knots);
   Sketch sketch;
-  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    const std::size_t at = course.after(knots[k + 1]);
     sketch.parts.push_back({.from_rad = phi_rad[static_cast<Eigen::Index>(k)],
                             .to_rad = phi_rad[static_cast<Eigen::Index>(k) + 1],
                             .length_m = knots[k + 1] - knots[k],
-                            .through_m = course.place_at(knots[k + 1])});
+                            .through_m = course.place_m[at - 1],
+                            .turned_rad = turned_rad + course.turned_rad[at]});
+  }
   return sketch;
 }
 
@@ -187,8 +201,8 @@ double Sketch::effort_m() const {
 
 Sketch reversed(Sketch sketch) {
   for (Sketch::Part& part : sketch.parts)
-    part = {kPi - part.from_rad, kPi - part.to_rad, part.length_m,
-            -part.sign,          part.rests_after,  part.through_m};
+    part = {kPi - part.from_rad, kPi - part.to_rad, part.length_m,  -part.sign,
+            part.rests_after,    part.through_m,    part.turned_rad};
   return sketch;
 }
 
@@ -291,7 +305,9 @@ Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
       if (sign * next < 0) break;
       if (next != 0) sign = next;
     }
-    Sketch part = along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m, count);
+    const double before_rad = sketch.parts.empty() ? 0.0 : *sketch.parts.back().turned_rad;
+    Sketch part =
+        along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m, count, before_rad);
     if (sign < 0) part = reversed(std::move(part));
     append(sketch, std::move(part));
   }
@@ -324,10 +340,12 @@ Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goal
                                 .law = part.sign > 0 ? leg : legs.size() + leg,
                                 .rests_after = part.rests_after,
                                 .segments = segments});
-      if (part.through_m) program.waypoints.push_back({program.pieces.size() - 1, in_frame(*part.through_m)});
+      if (!part.through_m) continue;
+      program.waypoints.push_back({program.pieces.size() - 1, in_frame(*part.through_m)});
+      if (part.turned_rad) program.waypoints.back().heading_rad = turned + *part.turned_rad;
     }
     program.pieces.back().rests_after = true;
-    turned += legs[leg].turn_rad(half_track_m);
+    turned += legs[leg].parts.back().turned_rad.value_or(legs[leg].turn_rad(half_track_m));
     const LegGoal& goal = goals[leg];
     Target target{.piece = program.pieces.size() - 1, .at_m = in_frame(goal.at_m)};
     if (goal.heading_rad)

@@ -13,7 +13,8 @@ struct Sketch {
     double from_rad{}, to_rad{}, length_m{};  ///< phi and tau
     int sign{1};
     bool rests_after{};
-    std::optional<Point2> through_m{};  ///< place at its end, where it is known
+    std::optional<Point2> through_m{};   ///< place at its end, where it is known
+    std::optional<double> turned_rad{};  ///< from the leg's begin to its end, where it is known
   };
   std::vector<Part> parts{};
 

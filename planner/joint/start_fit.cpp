@@ -11,16 +11,22 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kPhiEase = 0.2, kLeastLengthEase_m2 = 0.02;  ///< how far a parameter moves, squared
+constexpr double kPhiEase = 0.2, kLeastPhiEase = 1e-4, kLeastLengthEase_m2 = 1e-4;
 constexpr double kMostPhiStep_rad = 0.6, kMostShrink = 0.7;
-constexpr double kWaypoint_m = 0.05, kGoal_m = 0.01;  ///< deviations that weigh as much as a step of the ease
-constexpr double kClose_m = 0.02;                     ///< of every waypoint: near enough
-constexpr int kFollowSteps = 12;
+constexpr double kGoal_m = 0.01;    ///< a deviation that weighs as much as a step of the ease
+constexpr double kWaypoint = 0.05;  ///< the same of waypoints (m, rad)
+constexpr double kClose = 0.02;     ///< of every waypoint (m, rad): near enough
+constexpr int kFollowSteps = 20;
 
+/// How far each parameter moves, squared: a knot no farther than to its bound, a length no farther than to 0.
 VectorXd ease_of(const Program& program, const VectorXd& p) {
   VectorXd ease(p.size());
-  for (Index i = 0; i < p.size(); ++i)
-    ease[i] = i < program.knots ? kPhiEase : std::max(kLeastLengthEase_m2, p[i] * p[i]);
+  for (Index i = program.knots; i < p.size(); ++i) ease[i] = std::max(kLeastLengthEase_m2, p[i] * p[i]);
+  for (const Piece& piece : program.pieces)
+    for (const Index knot : {piece.from, piece.to}) {
+      const double room = kMostDirection_rad - std::abs(p[knot] - (piece.sign > 0 ? 0.0 : std::numbers::pi));
+      ease[knot] = std::clamp(room * room, kLeastPhiEase, kPhiEase);
+    }
   return ease;
 }
 
@@ -46,22 +52,25 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
 void follow_waypoints(const Program& program, VectorXd& p) {
   if (program.waypoints.empty()) return;
   PathGeometry geometry(program);
-  const auto places = 2 * static_cast<Index>(program.waypoints.size());
+  const auto rows = 3 * static_cast<Index>(program.waypoints.size());
   for (int step = 0; step < kFollowSteps; ++step) {
     geometry.differentiate(p);
     const VectorXd errors = geometry.errors();
-    MatrixXd slopes(places + errors.size(), p.size());
-    VectorXd off(slopes.rows());
-    for (Index i = 0; i < places / 2; ++i) {
-      const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i)];
+    MatrixXd slopes = MatrixXd::Zero(rows + errors.size(), p.size());
+    VectorXd off = VectorXd::Zero(slopes.rows());
+    for (Index i = 0; i < rows; i += 3) {
+      const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i / 3)];
       const Pose there = geometry.pose(waypoint.piece, 1);
       const auto slope = geometry.gradient(waypoint.piece, geometry.local(waypoint.piece, 1));
-      off.segment<2>(2 * i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
-      slopes.middleRows<2>(2 * i) = slope.leftCols<2>().transpose();
+      off.segment<2>(i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
+      slopes.middleRows<2>(i) = slope.leftCols<2>().transpose();
+      if (!waypoint.heading_rad) continue;
+      off[i + 2] = there.heading_rad - *waypoint.heading_rad;
+      slopes.row(i + 2) = slope.col(2).transpose();
     }
-    if (off.head(places).lpNorm<Eigen::Infinity>() < kClose_m && errors.norm() < kClose_m) return;
-    off.head(places) /= kWaypoint_m;
-    slopes.topRows(places) /= kWaypoint_m;
+    if (off.head(rows).lpNorm<Eigen::Infinity>() < kClose && errors.norm() < kClose) return;
+    off.head(rows) /= kWaypoint;
+    slopes.topRows(rows) /= kWaypoint;
     off.tail(errors.size()) = errors / kGoal_m;
     slopes.bottomRows(errors.size()) = geometry.error_gradient() / kGoal_m;
     MatrixXd normal = slopes.transpose() * slopes;

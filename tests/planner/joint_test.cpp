@@ -246,7 +246,7 @@ TEST(JointSegment, PowerIsTheModels) {
   }
 }
 
-// Corridors of 9 m between bends of 1 m: one piece of path, 70 m long.
+// A turn in place, then corridors of 9 m between bends of 1 m: one piece of path, 70 m long.
 Path winding_path(double half_track_m) {
   std::vector<CurveSegment> segments;
   Pose here;
@@ -261,22 +261,22 @@ Path winding_path(double half_track_m) {
     add(side * 0.45, 0, 0.6);
   }
   add(0, 0, 2);
-  return {{Curve(std::move(segments), Direction::forward)}};
+  return {{TurnInPlace{{0, 0, -2.9}, 2.9}, Curve(std::move(segments), Direction::forward)}};
 }
 
 TEST(JointStart, AlongALongPathIsThatPath) {
   const double half_track_m = even_nomad().geometry.half_track_m;
   const Path path = winding_path(half_track_m);
   const Pose goal = path.end();
-  Start start = assemble({along_path(path, half_track_m, 34)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}}, {},
-                         half_track_m, 5);
+  Start start = assemble({along_path(path, half_track_m, 34)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}},
+                         path.start(), half_track_m, 5);
   start.program.laws = {law_of(even_nomad())};
   follow_waypoints(start.program, start.parameters);
   const Path begun = paths_of(start.program, start.parameters).front();
   const auto places = [](const Path& along) {
     std::vector<Pose> all;
     for (double s = 0; s < along.distance_m(); s += 0.05)
-      all.push_back(piece_point(along.pieces.front(), s).pose);
+      all.push_back(piece_point(along.pieces.back(), s).pose);
     return all;
   };
   const std::vector<Pose> wanted = places(path);
