@@ -72,7 +72,7 @@ def compiled(file, wheels):
     text = None
     if file.suffix == ".urdf":  # without the files of its meshes
         text = re.sub(r"<mesh\b[^>]*?/>|<mesh\b[^>]*?>.*?</mesh>", '<sphere radius="0.001"/>', file.read_text(), flags=re.S)
-        text = re.sub(r"(<robot[^>]*>)", r'\1<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco>', text, count=1)
+        text = re.sub(r"(<robot[^>]*>)", r'\1<mujoco><compiler fusestatic="false" discardvisual="true" inertiafromgeom="false" boundmass="1e-9" boundinertia="1e-12"/></mujoco>', text, count=1)
     model = mujoco.MjModel.from_xml_string(text) if text else mujoco.MjModel.from_xml_path(str(file))
     data = mujoco.MjData(model)
     data.qpos[:] = model.qpos0

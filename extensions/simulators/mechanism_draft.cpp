@@ -6,6 +6,7 @@
 
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/text/counted.hpp"
 #include "scenarios/text/document.hpp"
 #include "scenarios/text/significant.hpp"
 
@@ -157,7 +158,7 @@ class DraftOfMechanism {
   }
 
   void state_masses() {
-    const std::string parts = std::to_string(chassis_links_.size()) + " links without the drive wheels";
+    const std::string parts = counted(chassis_links_.size(), "link") + " without the drive wheels";
     if (chassis_.mass_kg > 0) {
       const std::string from = file_name() + ": " + parts;
       draft_.state("geometry.center_of_mass_offset_m", (chassis_.center_m - middle_m_).dot(forward_),
