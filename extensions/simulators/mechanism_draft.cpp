@@ -86,8 +86,10 @@ class DraftOfMechanism {
                  ? "no drive plugin, transmission or actuator that names two drive wheels"
                  : std::to_string(driven.size()) + " driven joints: " +
                        text_of_list(driven, [](const MechanismJoint* joint) { return joint->name; }),
-             "--wheels LEFT,RIGHT with two of: " + turning_names(),
-             "the model has two driven wheels; others count as parts of the chassis");
+             "init --wheels LEFT,RIGHT with two of: " + turning_names(),
+             mechanism_.notes.empty()
+                 ? "the model has two driven wheels; others count as parts of the chassis"
+                 : mechanism_.notes.front());
     }
     if (driven[0]->place_m.y() < driven[1]->place_m.y()) std::swap(driven[0], driven[1]);
     return {driven[0], driven[1]};

@@ -275,7 +275,8 @@ class MjcfReader {
       if (joint.name != name) continue;
       joint.is_driven = true;
       if (actuator.name() != "velocity") continue;
-      if (const auto range = numbers(actuator, "ctrlrange", "", 2)) joint.speed_rad_s = (*range)[1];
+      const auto range = numbers(actuator, "ctrlrange", "", 2), gear = numbers(actuator, "gear", "");
+      if (range) joint.speed_rad_s = (*range)[1] / (gear && (*gear)[0] > 0 ? (*gear)[0] : 1.0);
     }
   }
 

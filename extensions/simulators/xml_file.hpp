@@ -15,7 +15,6 @@ class XmlElement {
  public:
   XmlElement(const tinyxml2::XMLElement* element, const std::string* file) : element_(element), file_(file) {}
 
-  [[nodiscard]] const tinyxml2::XMLElement* get() const { return element_; }
   [[nodiscard]] std::string name() const { return element_->Name(); }
   [[nodiscard]] int line() const { return element_->GetLineNum(); }
   [[nodiscard]] const std::string& file() const { return *file_; }

@@ -18,8 +18,8 @@
 namespace joulepath {
 namespace {
 
-constexpr double kShareOfSpacing =
-    0.6;                              ///< a step of a grid is half a cell beside the line that it stands for
+/// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
+constexpr double kShareOfSpacing = 0.6;
 constexpr double kUnitLength = 0.01;  ///< a quaternion's length may differ so much from 1
 
 /// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
