@@ -20,6 +20,7 @@ namespace {
 
 /// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
 constexpr double kShareOfSpacing = 0.6;
+constexpr int kFewestSteps = 3;       ///< a path bends to and fro on purpose less often
 constexpr double kUnitLength = 0.01;  ///< a quaternion's length may differ so much from 1
 
 /// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
@@ -87,20 +88,31 @@ std::optional<Node> poses_in(const Node& root) {
   return std::nullopt;
 }
 
-double smallest_radius_m(const Path& path) {
-  double most_per_m = 0;
+struct SharpBends {
+  double radius_m{std::numeric_limits<double>::infinity()};  ///< the smallest
+  int alternations{};  ///< from a bend sharper than the points' spacing to one to the other side
+};
+
+SharpBends sharp_bends(const Path& path, double spacing_m) {
+  SharpBends bends;
+  double side = 0;
   for (const PathPiece& piece : path.pieces) {
     const std::vector<double> at = piece_breakpoints(piece);
     for (std::size_t i = 0; i + 1 < at.size(); ++i)
-      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
-        most_per_m = std::max(
-            most_per_m, std::abs(piece_bend(piece, at[i] + share * (at[i + 1] - at[i])).curvature_per_m));
+      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        const double bend_per_m = piece_bend(piece, at[i] + share * (at[i + 1] - at[i])).curvature_per_m;
+        bends.radius_m = std::min(bends.radius_m, 1 / std::abs(bend_per_m));
+        if (std::abs(bend_per_m) * spacing_m <= 1) continue;
+        if (side * bend_per_m < 0) ++bends.alternations;
+        side = bend_per_m;
+      }
   }
-  return most_per_m > 0 ? 1 / most_per_m : std::numeric_limits<double>::infinity();
+  return bends;
 }
 
-/// Follows points within a tolerance. Where none is stated and the curve bends more closely than the points
-/// are apart (the steps of a grid, noise), the tolerance fits the spacing.
+/// Follows points within a tolerance. Where none is stated and the curve bends to and fro more closely than
+/// the points are apart (the steps of a grid, noise), the tolerance fits the spacing. Notes say so, and where
+/// single bends are so close.
 template <class Follow>
 WaypointPath fitted(const Follow& follow, const std::vector<Pose>& points, std::optional<double> tolerance_m,
                     std::vector<std::string>* notes) {
@@ -110,16 +122,20 @@ WaypointPath fitted(const Follow& follow, const std::vector<Pose>& points, std::
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     spacing_m += std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m);
   spacing_m /= static_cast<double>(points.size() - 1);
-  const double radius_m = smallest_radius_m(close.path), wide_m = kShareOfSpacing * spacing_m;
-  if (!(radius_m < spacing_m && wide_m > kWaypointTolerance_m)) return close;
-  WaypointPath smooth = follow(wide_m);
-  if (smooth.defect || smallest_radius_m(smooth.path) <= radius_m) return close;
-  if (notes != nullptr)
-    notes->push_back("points " + four_digits(spacing_m) + " m apart: followed within " + four_digits(wide_m) +
-                     " m, smallest radius " + four_digits(smallest_radius_m(smooth.path)) + " m; within " +
-                     four_digits(kWaypointTolerance_m) + " m their steps would bend the path to " +
-                     four_digits(radius_m) + " m (--tolerance sets it)");
-  return smooth;
+  const SharpBends bends = sharp_bends(close.path, spacing_m);
+  const double wide_m = kShareOfSpacing * spacing_m;
+  if (!(bends.radius_m < spacing_m && wide_m > kWaypointTolerance_m)) return close;
+  std::string note = "points " + four_digits(spacing_m) + " m apart: within " +
+                     four_digits(kWaypointTolerance_m) + " m of them the path bends to a radius of " +
+                     four_digits(bends.radius_m) + " m, which sets the speed";
+  if (bends.alternations >= kFewestSteps)
+    if (WaypointPath smooth = follow(wide_m); !smooth.defect) {
+      note += "; it is followed within " + four_digits(wide_m) + " m, smallest radius " +
+              four_digits(sharp_bends(smooth.path, spacing_m).radius_m) + " m";
+      close = std::move(smooth);
+    }
+  if (notes != nullptr) notes->push_back(note + " (--tolerance sets it)");
+  return close;
 }
 
 Path path_along(const Node& list, std::optional<double> tolerance_m, std::vector<std::string>* notes) {

@@ -41,6 +41,21 @@ TEST(PathFile, StepsOfAGridDoNotBendThePath) {
     }
 }
 
+/// A corner that is meant is followed closely, and a note says that it sets the speed.
+TEST(PathFile, ASharpCornerIsKeptAndNoted) {
+  const ScratchDirectory scratch;
+  std::string corner = "x_m,y_m\n";
+  for (int i = 0; i <= 40; ++i)
+    corner +=
+        std::to_string(0.05 * std::min(i, 20)) + "," + std::to_string(0.05 * std::max(0, i - 20)) + "\n";
+  std::vector<std::string> notes;
+  const Path path = read_waypoints(scratch.write("corner.csv", corner), {}, {}, &notes);
+  EXPECT_GT(most_bend_per_m(path), 1 / 0.05);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes.front().find("which sets the speed (--tolerance sets it)"), std::string::npos)
+      << notes.front();
+}
+
 TEST(PathFile, AStatedToleranceIsKeptAndAStraightLineNeedsNone) {
   const ScratchDirectory scratch;
   std::vector<std::string> notes;
