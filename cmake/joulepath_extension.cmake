@@ -7,7 +7,8 @@ set(JOULEPATH_ALL_EXTENSIONS
   onboard
   studies
   studio
-  fleet)
+  fleet
+  simulators)
 set(JOULEPATH_EXTENSIONS all CACHE STRING "Extensions to build, separated by semicolons; all: every one; empty: the core alone")
 
 # The chosen extensions, in the order of JOULEPATH_ALL_EXTENSIONS.

@@ -76,5 +76,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # names the shared libraries' packages
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "coinor-libipopt-dev, liblapack-dev, libblas-dev, libeigen3-dev, libnlopt-dev, libompl-dev, libyaml-cpp-dev, nlohmann-json3-dev, libpng-dev, zlib1g-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, pkg-config")
+    "coinor-libipopt-dev, liblapack-dev, libblas-dev, libeigen3-dev, libnlopt-dev, libompl-dev, libyaml-cpp-dev, nlohmann-json3-dev, libpng-dev, zlib1g-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, libtinyxml2-dev, pkg-config")
 include(CPack)

@@ -48,6 +48,7 @@ const std::map<std::string, Target>& targets() {
                                                  {"order", {"input.json", "", {}}},
                                                  {"graph", {"input.geojson", "route graph", {}}},
                                                  {"plan", {"input.json", "plan", {}}},
+                                                 {"model", {"input.xml", "", {}}},
                                                  {"bag", {"input.mcap", "bag", {}}},
                                                  {"rosbag", {"input.db3", "bag", {}}},
                                                  {"states", {"input.jsonl", "bag", {}}},

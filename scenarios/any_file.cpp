@@ -20,6 +20,7 @@
 #include "scenarios/registry.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/robot_files/robot_sources.hpp"
 #include "scenarios/text/counted.hpp"
 
 namespace joulepath {
@@ -53,6 +54,14 @@ FileSummary summary_of_robot(const std::string& file) {
     summary.notes.push_back("no limits: diagnose, estimate and calibrate work, plan does not");
   if (!robot.effects.empty()) summary.text += ", " + counted(robot.effects.size(), "effect");
   return summary;
+}
+
+/// Of a file that says something about a robot, for `init --from`.
+FileSummary summary_of_source(const RobotSource& source, const std::string& file) {
+  const RobotDraft draft = source.read(file, {});
+  std::string text;
+  for (const DraftValue& value : draft.values) append_item(text, value.key + ": " + value.text);
+  return {source.says, text, draft.notes};
 }
 
 FileSummary summary_of_map(const std::string& file, const ReadOptions& options) {
@@ -103,6 +112,13 @@ FileSummary summary_of_path(const Path& path) {
   return {"path", std::string(length) + " in " + counted(static_cast<std::size_t>(curves), "piece"), {}};
 }
 
+FileSummary summary_of_points(const std::string& file) {
+  std::vector<std::string> notes;
+  FileSummary summary = summary_of_path(read_waypoints(file, {}, {}, &notes));
+  summary.notes = std::move(notes);
+  return summary;
+}
+
 FileSummary summary_of_chain(const Document& document, const ReadOptions& options) {
   std::vector<std::string> notes;
   FileSummary summary = summary_of_path(path_from(document, options, &notes));
@@ -146,7 +162,7 @@ const FileReader* reader_of(const std::string& given_kind, bool of_documents, co
 std::string checked_kinds() {
   std::string names = "robot, map, mission, path, dataset, run log";
   for (const FileReader& reader : registry().files) names += ", " + reader.kind;
-  return names + ", plan or diagnosis";
+  return names + ", plan or diagnosis; " + robot_source_names();
 }
 
 FileSummary read_any_file(const std::string& file, const std::string& given_kind, const ReadOptions& options,
@@ -156,11 +172,12 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
         {{file, 0, 0}, "", "kind " + given_kind, accepted_extension(needed), extension_hint(needed)});
   const std::string extension = std::filesystem::path(file).extension().string();
   if (is_waypoint_file(file) && (given_kind == "path" || (given_kind.empty() && has_waypoints(file))))
-    return summary_of_path(read_waypoints(file));
+    return summary_of_points(file);
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
   const auto by_name = [&](const FileReader& reader) { return reader.recognizes_file(file); };
   if (const FileReader* reader = reader_of(given_kind, false, by_name)) return reader->check(file, options);
+  if (const RobotSource* source = robot_source_of(file)) return summary_of_source(*source, file);
   refuse_absent_file(file);
   const Document document = Document::load(file);
   const std::string inferred = inferred_kind(document.root());
@@ -171,6 +188,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   refuse_absent_document(document);
   const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
   if (kind == "robot") return summary_of_robot(file);
+  if (const RobotSource* source = robot_source_of(document)) return summary_of_source(*source, file);
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options, brief);

@@ -31,6 +31,7 @@ std::string kind_by_keys(const Node& root) {
                                   {"poses", "path"},
                                   {"points", "path"},
                                   {"geometry", "robot"},
+                                  {"motor_sheet", "motor_sheet"},
                                   {"motor", "robot"},
                                   {"inertia", "robot"}})
     if (root.has(key)) return kind;

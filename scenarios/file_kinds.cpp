@@ -9,6 +9,7 @@
 #include "scenarios/mission_files/path_file.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/result_files/output_schemas.hpp"
+#include "scenarios/robot_files/motor_sheet_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
@@ -17,6 +18,7 @@ const std::vector<FileKind>& file_kinds() {
   static const std::vector<FileKind> kinds = [] {
     std::vector<FileKind> all{
         {"robot", robot_schema, "parameters, limits and uncertainty of a differential-drive robot"},
+        {"motor_sheet", motor_sheet_schema, "data sheet of a motor, for init --from"},
         {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
         {"dataset", dataset_schema, "run logs, their sensors, and the mapping of their columns"},
         {"mission", mission_schema, "stops or legs of a robot, with payloads and deadlines"},

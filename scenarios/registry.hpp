@@ -17,10 +17,12 @@ struct TimedMessage;
 struct Export;
 struct ExportInput;
 struct FileSummary;
+struct ForeignGraph;
 struct Geometry;
 struct LogTables;
 struct MissionRequest;
 struct MissionWorld;
+struct RobotDraft;
 struct Trajectory;
 struct ColumnSource;
 using ColumnSources = std::map<std::string, ColumnSource>;
@@ -68,7 +70,23 @@ struct MissionDocument {
   std::string use{};      ///< where it is accepted, for the hint of an error
   std::string example{};  ///< of `plan`
   bool (*recognizes)(const Document& document){};
-  void (*read)(MissionRequest& mission){};  ///< has its file
+  void (*read)(MissionRequest& mission){};                       ///< has its file
+  std::vector<std::string> (*notes)(const std::string& file){};  ///< what is doubtful; null: nothing
+};
+
+/// Reads what a file of another program says about a robot, for `init --from`.
+struct RobotSource {
+  std::string says{};                                  ///< "a URDF, SDF or MJCF model"
+  bool (*recognizes_file)(const std::string& file){};  ///< by its first characters; null: a document
+  bool (*recognizes_document)(const Document& document){};
+  RobotDraft (*read)(const std::string& file, const std::vector<std::string>& wheels){};
+};
+
+/// Reads route graphs that are no documents, for `route_graph:`.
+struct GraphSource {
+  std::string says{};  ///< "a plant model of openTCS"
+  bool (*recognizes)(const std::string& file){};
+  ForeignGraph (*read)(const std::string& file){};
 };
 
 struct ExportFormat {
@@ -87,6 +105,8 @@ struct Registry {
   std::vector<FileKind> kinds{};
   std::vector<MissionKey> mission_keys{};
   std::vector<MissionDocument> mission_documents{};
+  std::vector<RobotSource> robots{};
+  std::vector<GraphSource> graphs{};
   std::vector<ExportFormat> exports{};
 };
 

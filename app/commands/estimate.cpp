@@ -7,6 +7,7 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/estimation/estimate_dataset.hpp"
+#include "model/printable.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/run_log.hpp"
@@ -15,6 +16,9 @@ namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double kMostExcess = 1.0,
+                 kMostLack = 0.5;  ///< relative errors: twice or half of the measured energy
 
 Json sided_json(const Sided<double>& value) { return {{"left", value.left}, {"right", value.right}}; }
 
@@ -106,6 +110,7 @@ class EstimateCommand : public Command {
       out->write("estimate.json", report.dump(2) + "\n");
       out->commit();
     }
+    if (!common_.quiet) hint(all);
     if (common_.json)
       std::cout << report.dump(2) << '\n';
     else if (!common_.quiet)
@@ -114,6 +119,17 @@ class EstimateCommand : public Command {
   }
 
  private:
+  /// Errors that no model has are those of the data: units, signs, a robot file of another robot.
+  void hint(const DatasetEstimate& all) const {
+    for (const RunEstimate& run : all.runs)
+      if (run.error && (*run.error > kMostExcess || *run.error < -kMostLack)) {
+        std::cerr << "note: " << printable(run.name) << ": the estimate is " << figure(1 + *run.error, 3)
+                  << " times the measured energy: joulepath check " << printable(input_)
+                  << " examines the data\n";
+        return;
+      }
+  }
+
   static std::vector<std::string> file_names(std::size_t runs) {
     std::vector<std::string> names{"estimate.json"};
     for (std::size_t k = 1; k <= runs; ++k)

@@ -70,7 +70,7 @@ class ExportCommand : public Command {
     const ExportFormat& format = format_named(format_);
     if (format.write_log && is_run_log(source.file)) return write_log(format);
     check_extension();
-    const MissionRequest mission = read_mission_source(source, reading);
+    const MissionRequest mission = read_told_source(source, reading, arguments_.common.quiet);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
     options_.baselines = false;  // exports do not use the plan's own baselines

@@ -57,7 +57,7 @@ class FrontCommand : public Command {
   int run() override {
     OutputDirectory out = analysis_output(options_, kResult);
     const ReadOptions reading{.untrusted = options_.common.untrusted};
-    MissionRequest mission = read_mission_source(options_.source, reading);
+    MissionRequest mission = read_told_source(options_.source, reading, options_.common.quiet);
     const MissionWorld world = read_world(mission, reading);
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);

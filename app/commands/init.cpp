@@ -7,9 +7,13 @@
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/starter_files.hpp"
+#include "model/printable.hpp"
 #include "model/simulation/simulate.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/robot_files/robot_sources.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -67,17 +71,24 @@ class Init : public Command {
  public:
   Init()
       : Command({.name = "init",
-                 .says = "write commented example files: robot, map, mission and dataset",
+                 .says = "write commented example files, or a robot file from files of other programs",
                  .examples = "  joulepath init my_robot\n"
+                             "  joulepath init my_robot --from robot.urdf --from motor_sheet.yaml --from "
+                             "nav2_params.yaml\n"
                              "  joulepath plan my_robot/mission.yaml --out my_robot/out\n"
                              "  joulepath diagnose my_robot/dataset.yaml --out my_robot/diagnosis"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directory_, "directory to write to").required();
+    line.option("--from", from_, "write a robot file alone, of what this file says: " + robot_source_names())
+        .repeatable();
+    line.option("--wheels", wheels_, "with --from: the joints of the left and of the right drive wheel")
+        .comma_separated();
     add_common_flags(line, options_, "qf");
   }
 
   int run() override {
+    if (!from_.empty()) return write_draft();
     std::vector<std::string> names{"robot.yaml", "map.yaml", "map.pgm", "mission.yaml", "dataset.yaml"};
     for (int i = 0; i < kRuns; ++i) names.push_back(run_name(i));
     OutputDirectory out(directory_, names, options_.force);
@@ -105,7 +116,26 @@ class Init : public Command {
   }
 
  private:
+  /// A robot file of what other programs' files say.
+  int write_draft() const {
+    OutputDirectory out(directory_, {"robot.yaml"}, options_.force);
+    const RobotDraft draft = draft_from(from_, wheels_);
+    out.write("robot.yaml", draft_text(draft));
+    out.commit();
+    if (options_.quiet) return kDone;
+    const std::vector<std::string> missing = missing_in(draft);
+    std::cout << "written to " << out.path() << ": robot.yaml with " << counted(draft.values.size(), "value")
+              << "\n";
+    for (const std::string& note : draft.notes) std::cerr << "  note: " << printable(note) << "\n";
+    if (!missing.empty())
+      std::cout << "missing: " << text_of_list(missing) << " (docs/your_robot.md says where to find them)\n";
+    std::cout << "next:  joulepath check " << (std::filesystem::path(out.path()) / "robot.yaml").string()
+              << '\n';
+    return kDone;
+  }
+
   std::string directory_{};
+  std::vector<std::string> from_{}, wheels_{};
   CommonOptions options_{};
 };
 

@@ -69,7 +69,7 @@ class PlanCommand : public Command {
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "profile.csv", "timing.json", "report.html"},
                         common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
-    MissionRequest mission = read_mission_source(source_, reading);
+    MissionRequest mission = read_told_source(source_, reading, common_.quiet);
     MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);

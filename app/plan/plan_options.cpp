@@ -1,6 +1,9 @@
 #include "app/plan/plan_options.hpp"
 
+#include <iostream>
+
 #include "app/command_line.hpp"
+#include "model/printable.hpp"
 #include "scenarios/registry.hpp"
 
 namespace joulepath {
@@ -23,6 +26,18 @@ void add_mission_source(CommandLine& line, MissionSource& source, bool with_time
     line.option("--time", source.duration_s,
                 "duration for a path in seconds; default: the duration of least energy")
         .positive();
+  line.option("--tolerance", source.tolerance_m,
+              "how far a path may be from its points, m; default 0.01, or 0.6 of their spacing along the "
+              "steps of a grid")
+      .not_negative();
+}
+
+MissionRequest read_told_source(const MissionSource& source, const ReadOptions& options, bool quiet) {
+  std::vector<std::string> notes;
+  MissionRequest mission = read_mission_source(source, options, &notes);
+  if (!quiet)
+    for (const std::string& note : notes) std::cerr << "note: " << printable(note) << "\n";
+  return mission;
 }
 
 }  // namespace joulepath

@@ -17,4 +17,8 @@ void add_plan_options(CommandLine& line, PlanOptions& options,
 /// --time.
 void add_mission_source(CommandLine& line, MissionSource& source, bool with_time = true);
 
+/// Reads the input and, unless `quiet`, tells what its reader noted.
+[[nodiscard]] MissionRequest read_told_source(const MissionSource& source, const ReadOptions& options,
+                                              bool quiet);
+
 }  // namespace joulepath

@@ -84,13 +84,14 @@ def pose_of(data):
     return (*data.qpos[:2], math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2)))
 
 
-def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, grade=0.0, disturb=None, most_A=math.inf):
+def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, grade=0.0, disturb=None, most_A=math.inf, text=None):
     """Watts of each motor and poses at the ends of `count` periods, from the pose `start` at rest.
 
     guide(i, pose, (v, omega)): the reference (v, omega) of period i. disturb(i, model, data): changes the world before it.
+    `text`: a model with joints left and right and voltages as controls, instead of model_text().
     """
     mujoco = package("mujoco")
-    model = mujoco.MjModel.from_xml_string(model_text(robot, payload_kg * payload_factor, grade))
+    model = mujoco.MjModel.from_xml_string(text or model_text(robot, payload_kg * payload_factor, grade))
     data = mujoco.MjData(model)
     motor, r, l = robot["motor"], robot["wheel_radius_m"], robot["half_track_m"]
     K = np.array(motor["torque_constant_Nm_A"]) * motor["gear_ratio"]

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_bag_name(const fs::path& file) { return file.extension() == ".db3" || file.extension() == ".mcap"; }
+bool is_ros_1_name(const fs::path& file) { return file.extension() == ".bag"; }
 
 /// The bags in a folder; rosbag2 numbers them: name_9.db3 comes before name_10.db3.
 std::vector<std::string> bags_in(const std::string& folder) {
@@ -100,12 +101,16 @@ constexpr std::uint64_t kAlwaysMessages = 100'000;
 }  // namespace
 
 bool is_bag(const std::string& file) {
-  return is_bag_name(file) || is_folder(file) || message_reader_of(file);
+  return is_bag_name(file) || is_ros_1_name(file) || is_folder(file) || message_reader_of(file);
 }
 
 MessageDamage read_bag(const std::string& file, const NamedBy& named_by,
                        const std::function<void(const MessageChannel&)>& on_channel,
                        const std::function<void(const TimedMessage&)>& on_message) {
+  if (is_ros_1_name(file))
+    throw named_by.error(file, "a bag of ROS 1", "a bag of ROS 2 (.mcap, .db3)",
+                         "convert it: rosbags-convert --src " + file + " --dst " +
+                             fs::path(file).replace_extension().string());
   std::map<std::pair<std::string, std::string>, std::size_t> topics;
   MessageDamage damage;
   std::string unpacked;

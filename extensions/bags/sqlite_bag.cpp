@@ -70,12 +70,31 @@ void restrain(const Database& database, std::int64_t& calls_left) {
   sqlite3_progress_handler(database.get(), kStepsPerCall, &spend_call, &calls_left);
 }
 
+/// The name of a file that does not change, as a URI.
+std::string immutable_uri(const std::string& file) {
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(file).string())
+    uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
+  return uri + "?immutable=1";
+}
+
+/// Nothing is written beside a bag, so that read-only media work: without a write-ahead log the file is
+/// immutable; with one, its index is kept in memory and it stays when the bag is closed.
 Database opened(const std::string& file, const NamedBy& named_by) {
+  std::error_code none;
+  const auto log_bytes = std::filesystem::file_size(file + "-wal", none);
+  const bool has_log = !none && log_bytes > 0;
   sqlite3* raw = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  const int code = has_log ? sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, "unix-none")
+                           : sqlite3_open_v2(immutable_uri(file).c_str(), &raw,
+                                             SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   Database database(raw, &sqlite3_close);
   if (code != SQLITE_OK)
     throw named_by.error(file, "a file that cannot be read", "a bag of rosbag2 (sqlite3)");
+  if (has_log) {
+    sqlite3_db_config(raw, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    sqlite3_exec(raw, "PRAGMA locking_mode = EXCLUSIVE", nullptr, nullptr, nullptr);
+  }
   return database;
 }
 

@@ -355,6 +355,7 @@ class ControllerReader {
     known = std::min(known.value_or(size), size);
     settings.read.push_back(value.path());
     settings.lines.push_back(value.mark().line);
+    settings.sizes.emplace_back(field, size);
   }
 
   static bool is_nan(const std::string& text) {
@@ -371,6 +372,7 @@ class ControllerReader {
         into.*field = std::min((into.*field).value_or(*value), *value);
     into.read.insert(into.read.end(), from.read.begin(), from.read.end());
     into.lines.insert(into.lines.end(), from.lines.begin(), from.lines.end());
+    into.sizes.insert(into.sizes.end(), from.sizes.begin(), from.sizes.end());
   }
 
   std::string plugin_{};  ///< empty: the file has one that drives

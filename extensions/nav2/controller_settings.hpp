@@ -14,8 +14,9 @@ struct ControllerFile {
   std::optional<double> speed_m_s{}, acceleration_m_s2{}, deceleration_m_s2{};
   std::optional<double> yaw_rate_rad_s{}, turn_rate_rad_s{};  ///< in all motion; in turns in place
   std::optional<double> yaw_acceleration_rad_s2{}, yaw_deceleration_rad_s2{}, turn_acceleration_rad_s2{};
-  std::vector<std::string> read{};          ///< the keys that were used, in the file's order
-  std::vector<int> lines{};                 ///< of these keys
+  std::vector<std::string> read{};  ///< the keys that were used, in the file's order
+  std::vector<int> lines{};         ///< of these keys
+  std::vector<std::pair<std::optional<double> ControllerFile::*, double>> sizes{};  ///< that they state
   std::vector<std::string> unused{};        ///< keys and lines of what looks like a limit and is not used
   std::vector<std::string> not_modelled{};  ///< what each controller does beside its limits, in words
   std::string file{};

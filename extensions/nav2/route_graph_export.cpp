@@ -9,6 +9,7 @@
 #include <set>
 
 #include "extensions/nav2/corner_table.hpp"
+#include "extensions/nav2/foreign_graphs.hpp"
 #include "extensions/nav2/route_graph_file.hpp"
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
@@ -274,7 +275,7 @@ RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& r
   double most_m_s = limits_for_payload(robot, order.payload_kg).speed_m_s;
   for (const EdgeCost& cost : costs.edges)
     if (!std::isfinite(most_m_s) || cost.speed_m_s > most_m_s) most_m_s = cost.speed_m_s;
-  Json json = Json::parse(read_text_file(order.graph_file));
+  Json json = Json::parse(geojson_text(order.graph_file));
   std::set<std::string> foreign = operations_of(json);
   const bool triggers = foreign.erase("TriggerEvent") > 0;
   RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "extensions/nav2/foreign_graphs.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/schema.hpp"
@@ -36,6 +37,8 @@ class GraphReader {
   explicit GraphReader(const std::string& file) { graph_.file = file; }
 
   void add_node(const Node& properties, const Node& geometry) {
+    if (const auto frame = properties.find("frame"); frame && frame->text() == "wgs84")
+      frame->fail("a frame in metres, as map", "degrees are no metres: project them");
     const auto [x_m, y_m] = read_point(geometry["coordinates"]);
     const long id = properties["id"].integer();
     if (!index_of_.emplace(id, graph_.nodes.size()).second)
@@ -83,6 +86,10 @@ class GraphReader {
   std::map<long, std::size_t> index_of_{};
 };
 
+bool is_in_degrees(const std::string& reference_system) {
+  return reference_system.find("CRS84") != std::string::npos || reference_system.ends_with(":4326");
+}
+
 /// By the type of its geometry; without one, by the nodes that it names.
 bool is_edge(const Node& feature) {
   const std::optional<Node> geometry = feature.find("geometry"),
@@ -95,13 +102,18 @@ bool is_edge(const Node& feature) {
 
 }  // namespace
 
-RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
-  const Document document = Document::load(file, named_by);
+RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by,
+                            std::vector<std::string>* notes) {
+  const Document document = Document::parse(geojson_text(file, named_by, notes), file);
   const Node root = document.root();
   if (const std::string kind = inferred_kind(root); !kind.empty() && kind != "route graph")
     root.fail_found("a file of kind " + kind, "a route graph (GeoJSON FeatureCollection)");
   if (root.kind() != Value::Kind::map || root.text_or("type", "") != "FeatureCollection")
     root.fail("a route graph (GeoJSON FeatureCollection)");
+  if (const auto crs = root.find("crs"); crs && crs->kind() == Value::Kind::map)
+    if (const auto named = crs->find("properties"); named && named->kind() == Value::Kind::map)
+      if (const auto name = named->find("name"); name && is_in_degrees(name->text()))
+        name->fail("coordinates in metres, in the map's frame", "degrees are no metres: project them");
   GraphReader reader(file);
   const auto features = root["features"].items();
   for (const bool lines : {false, true})

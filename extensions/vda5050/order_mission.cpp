@@ -10,6 +10,8 @@ namespace {
 
 using Blocking = OrderAction::Blocking;
 
+constexpr double kFarNeighbor_m = 300;  ///< between neighbors in a building or a yard
+
 bool keeps_standing(const OrderAction& action) {
   return action.blocking == Blocking::soft || action.blocking == Blocking::hard;
 }
@@ -52,6 +54,26 @@ void place_start(MissionRequest& mission, const Order& order) {
   mission.start.heading_given = true;
 }
 
+bool stands_there(const MissionRequest& mission, const OrderNode& node) {
+  if (!mission.marks.keys.contains("start")) return false;
+  const Pose& here = mission.start.pose;
+  return std::hypot(here.x_m - node.x_m, here.y_m - node.y_m) <=
+         std::max(node.deviation_m, kTrajectoryRounding_m);
+}
+
+/// The way from the robot's pose to the one node of an order, by the search.
+void drive_to_only_node(MissionRequest& mission, const Order& order) {
+  const OrderNode& node = order.nodes.front();
+  if (!mission.marks.keys.contains("start"))
+    throw ConfigError({node.marks.item, "/nodes", "a base of one node", "at least two released nodes",
+                       "a mission with order:, start: and map: plans the way from the robot's pose"});
+  mission.stations.insert_or_assign(
+      node.id,
+      Station{.x_m = node.x_m, .y_m = node.y_m, .heading_rad = node.heading_rad, .marks = node.marks});
+  mission.legs.push_back(
+      {.to = node.id, .dwell_s = standing_s(node.actions, mission.dwell_by_action_s), .marks = node.marks});
+}
+
 double lowest(const std::optional<double>& cap, double other) { return cap ? std::min(*cap, other) : other; }
 
 /// The leg over edges `first` to `last` (not included).
@@ -80,7 +102,23 @@ void append_zones(MissionRequest& mission, const Order& order, std::size_t first
   }
 }
 
+/// Whether distances suggest millimeters.
+bool looks_like_millimeters(const Order& order) {
+  std::vector<double> apart_m;
+  for (std::size_t i = 0; i + 1 < order.nodes.size(); ++i)
+    apart_m.push_back(
+        std::hypot(order.nodes[i + 1].x_m - order.nodes[i].x_m, order.nodes[i + 1].y_m - order.nodes[i].y_m));
+  std::ranges::sort(apart_m);
+  return !apart_m.empty() && apart_m[apart_m.size() / 2] > kFarNeighbor_m;
+}
+
 }  // namespace
+
+std::vector<std::string> order_notes(const Order& order) {
+  if (!looks_like_millimeters(order)) return {};
+  return {"nodes are more than " + std::to_string(static_cast<int>(kFarNeighbor_m)) +
+          " m apart (median): are the coordinates millimetres? VDA 5050 has metres"};
+}
 
 double standing_s(const std::vector<OrderAction>& actions,
                   const std::map<std::string, double>& dwell_by_action_s) {
@@ -101,9 +139,7 @@ double standing_s(const std::vector<OrderAction>& actions,
 void follow_order(MissionRequest& mission, const NamedBy& named_by) {
   const Order order = read_order(mission.order_file, named_by);
   const std::size_t nodes = order.released_count();
-  if (nodes < 2)
-    throw ConfigError({order.nodes.front().marks.item, "/nodes", "a base of one node",
-                       "at least two released nodes", "there is nothing to drive"});
+  if (nodes < 2 && !stands_there(mission, order.nodes.front())) return drive_to_only_node(mission, order);
   place_start(mission, order);
   Pose here = mission.start.pose;
   double payload_kg = 0.0;

@@ -1,7 +1,5 @@
 #include "extensions/vda5050/state_lines.hpp"
 
-#include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "scenarios/text/next_line.hpp"
 #include "scenarios/text/shallow_json.hpp"
+#include "scenarios/text/utc_time.hpp"
 
 namespace joulepath {
 namespace {
@@ -30,41 +29,12 @@ json state_in(const std::string& line) {
   return line.size() > kMostLineBytes ? json(json::value_t::discarded) : shallow_json(line);
 }
 
-/// A number with exactly this many digits.
-std::optional<int> digits(std::string_view text, std::size_t from, std::size_t count) {
-  if (text.size() < from + count) return {};
-  int value{};
-  const char* begin = text.data() + from;
-  const auto [end, error] = std::from_chars(begin, begin + count, value);
-  return error == std::errc{} && end == begin + count && value >= 0 ? std::optional(value) : std::nullopt;
-}
-
 std::string text_at(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 }  // namespace
-
-std::optional<std::uint64_t> utc_nanoseconds(std::string_view text) {
-  using namespace std::chrono;
-  if (text.size() < 20 || text.back() != 'Z' || text[4] != '-' || text[7] != '-' || text[10] != 'T')
-    return {};
-  const auto y = digits(text, 0, 4), m = digits(text, 5, 2), d = digits(text, 8, 2),
-             hour = digits(text, 11, 2), minute = digits(text, 14, 2), second = digits(text, 17, 2);
-  if (!y || !m || !d || !hour || !minute || !second) return {};
-  const year_month_day date{year(*y), month(static_cast<unsigned>(*m)), day(static_cast<unsigned>(*d))};
-  constexpr int kLastYear = 2261;  // 64 bits hold the nanoseconds until 2262-04-11
-  if (!date.ok() || *y < 1970 || *y > kLastYear || *hour > 23 || *minute > 59 || *second > 60) return {};
-  const auto whole = sys_days(date) + hours(*hour) + minutes(*minute) + seconds(*second);
-  auto total = static_cast<std::uint64_t>(duration_cast<nanoseconds>(whole.time_since_epoch()).count());
-  std::uint64_t unit = 100'000'000;
-  for (std::size_t i = 20; text[19] == '.' && i + 1 < text.size(); ++i, unit /= 10) {
-    if (text[i] < '0' || text[i] > '9') return {};
-    total += unit * static_cast<std::uint64_t>(text[i] - '0');
-  }
-  return text[19] == '.' || text.size() == 20 ? std::optional(total) : std::nullopt;
-}
 
 bool is_state_lines(const std::string& file) {
   const auto extension = std::filesystem::path(file).extension();

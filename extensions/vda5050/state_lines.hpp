@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string_view>
 
 #include "scenarios/log_files/messages.hpp"
@@ -22,8 +20,5 @@ inline constexpr std::string_view kStateType = "vda5050/State";
 [[nodiscard]] MessageDamage read_state_lines(const std::string& file, const NamedBy& named_by,
                                              const std::function<void(const MessageChannel&)>& on_channel,
                                              const std::function<void(const TimedMessage&)>& on_message);
-
-/// `2026-05-01T10:00:00.25Z` as nanoseconds since 1970; empty if the text is not such a time.
-[[nodiscard]] std::optional<std::uint64_t> utc_nanoseconds(std::string_view text);
 
 }  // namespace joulepath

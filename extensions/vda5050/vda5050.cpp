@@ -14,15 +14,16 @@ FileSummary check_order_file(const std::string& file, const ReadOptions&) {
   MissionRequest mission{.order_file = file};
   follow_order(mission);
   FileSummary summary{
-      "order",
-      counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
-      {}};
+      "order", counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
+      order_notes(order)};
   if (const std::size_t horizon = order.nodes.size() - order.released_count(); horizon > 0)
     summary.notes.push_back(counted(horizon, "node") + " of the horizon: not planned");
   return summary;
 }
 
 void read_named_order(MissionRequest& mission, const Node& name) { follow_order(mission, NamedBy(name)); }
+
+std::vector<std::string> notes_of_order(const std::string& file) { return order_notes(read_order(file)); }
 
 void read_order_as_mission(MissionRequest& mission) {
   mission.order_file = mission.file;
@@ -52,7 +53,8 @@ void add_vda5050(Registry& registry) {
        .use = "plan takes an order with --robot; elsewhere a mission names it with order:",
        .example = "order.json --robot robot.yaml --out out   # a VDA 5050 order",
        .recognizes = is_order,
-       .read = read_order_as_mission});
+       .read = read_order_as_mission,
+       .notes = notes_of_order});
   registry.exports.push_back(
       {.name = "vda5050",
        .says = "the order with a maximum speed on each edge (JSON), and the resulting energy loss",

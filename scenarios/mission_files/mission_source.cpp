@@ -53,18 +53,22 @@ MissionRequest mission_along(const MissionSource& source, Path path) {
   return mission;
 }
 
-MissionRequest read_mission_source(const MissionSource& source, const ReadOptions& options) {
+MissionRequest read_mission_source(const MissionSource& source, const ReadOptions& options,
+                                   std::vector<std::string>* notes) {
   const auto with_files = [&](MissionRequest mission) {
     if (!source.robot_file.empty()) mission.robot_file = source.robot_file;
     if (!source.map_file.empty()) mission.map_file = source.map_file;
     return mission;
   };
-  if (is_waypoint_file(source.file)) return with_files(mission_along(source, read_waypoints(source.file)));
+  const auto along = [&](Path path) { return with_files(mission_along(source, std::move(path))); };
+  if (is_waypoint_file(source.file)) return along(read_waypoints(source.file, source.tolerance_m, {}, notes));
   const Document document = Document::load(source.file);
-  if (is_path(document)) return with_files(mission_along(source, path_from(document, options)));
+  if (is_path(document)) return along(path_from(document, options, notes, source.tolerance_m));
   refuse_beside_mission("--payload", "payload_kg of a leg", source.payload_kg.has_value());
+  refuse_beside_mission("--tolerance", "tolerance_m of a path", source.tolerance_m.has_value());
   refuse_beside_mission("--time", "duration_s of a leg", source.duration_s.has_value());
   const MissionDocument* other = mission_document_of(document);
+  if (other && other->notes && notes) *notes = other->notes(source.file);
   return with_files(other ? mission_of(source, *other) : mission_from(document, options));
 }
 

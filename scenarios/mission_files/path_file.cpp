@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
+#include "model/printable.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/pose_path.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
@@ -16,6 +18,9 @@
 namespace joulepath {
 namespace {
 
+/// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
+constexpr double kShareOfSpacing = 0.6;
+constexpr int kFewestSteps = 3;       ///< a path bends to and fro on purpose less often
 constexpr double kUnitLength = 0.01;  ///< a quaternion's length may differ so much from 1
 
 /// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
@@ -83,11 +88,62 @@ std::optional<Node> poses_in(const Node& root) {
   return std::nullopt;
 }
 
-Path path_along(const Node& list, double tolerance_m) {
+struct SharpBends {
+  double radius_m{std::numeric_limits<double>::infinity()};  ///< the smallest
+  int alternations{};  ///< from a bend sharper than the points' spacing to one to the other side
+};
+
+SharpBends sharp_bends(const Path& path, double spacing_m) {
+  SharpBends bends;
+  double side = 0;
+  for (const PathPiece& piece : path.pieces) {
+    const std::vector<double> at = piece_breakpoints(piece);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i)
+      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        const double bend_per_m = piece_bend(piece, at[i] + share * (at[i + 1] - at[i])).curvature_per_m;
+        bends.radius_m = std::min(bends.radius_m, 1 / std::abs(bend_per_m));
+        if (std::abs(bend_per_m) * spacing_m <= 1) continue;
+        if (side * bend_per_m < 0) ++bends.alternations;
+        side = bend_per_m;
+      }
+  }
+  return bends;
+}
+
+/// Follows points within a tolerance. Where none is stated and the curve bends to and fro more closely than
+/// the points are apart (the steps of a grid, noise), the tolerance fits the spacing. Notes say so, and where
+/// single bends are so close.
+template <class Follow>
+WaypointPath fitted(const Follow& follow, const std::vector<Pose>& points, std::optional<double> tolerance_m,
+                    std::vector<std::string>* notes) {
+  WaypointPath close = follow(tolerance_m.value_or(kWaypointTolerance_m));
+  if (tolerance_m || close.defect || points.size() < 2) return close;
+  double spacing_m = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    spacing_m += std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m);
+  spacing_m /= static_cast<double>(points.size() - 1);
+  const SharpBends bends = sharp_bends(close.path, spacing_m);
+  const double wide_m = kShareOfSpacing * spacing_m;
+  if (!(bends.radius_m < spacing_m && wide_m > kWaypointTolerance_m)) return close;
+  std::string note = "points " + four_digits(spacing_m) + " m apart: within " +
+                     four_digits(kWaypointTolerance_m) + " m of them the path bends to a radius of " +
+                     four_digits(bends.radius_m) + " m, which sets the speed";
+  if (bends.alternations >= kFewestSteps)
+    if (WaypointPath smooth = follow(wide_m); !smooth.defect) {
+      note += "; it is followed within " + four_digits(wide_m) + " m, smallest radius " +
+              four_digits(sharp_bends(smooth.path, spacing_m).radius_m) + " m";
+      close = std::move(smooth);
+    }
+  if (notes != nullptr) notes->push_back(note + " (--tolerance sets it)");
+  return close;
+}
+
+Path path_along(const Node& list, std::optional<double> tolerance_m, std::vector<std::string>* notes) {
   std::vector<Pose> poses;
   for (const Node& item : list.items()) poses.push_back(pose_of(item));
   if (poses.size() < 2) list.fail("two poses or more");
-  WaypointPath along = path_along_poses(poses, tolerance_m);
+  WaypointPath along =
+      fitted([&](double within_m) { return path_along_poses(poses, within_m); }, poses, tolerance_m, notes);
   if (along.defect)
     list.items()[along.defect->waypoint].fail_found(along.defect->found, along.defect->accepted);
   return std::move(along.path);
@@ -100,7 +156,8 @@ Path path_along(const Node& list, double tolerance_m) {
 }
 
 /// By headings, corner radii or places alone, whichever columns there are.
-WaypointPath path_along(const CsvTable& table, double tolerance_m) {
+WaypointPath path_along(const CsvTable& table, std::optional<double> tolerance_m,
+                        std::vector<std::string>* notes) {
   const std::vector<double> x_m = column_of(table, "x_m"), y_m = column_of(table, "y_m");
   std::vector<Point2> waypoints_m;
   std::vector<Pose> poses;
@@ -111,10 +168,12 @@ WaypointPath path_along(const CsvTable& table, double tolerance_m) {
   if (table.find("corner_radius_m") != nullptr)
     return lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0));
   if (table.find("heading_rad") == nullptr || poses.size() < 2)
-    return curve_through(waypoints_m, tolerance_m);
+    return fitted([&](double within_m) { return curve_through(waypoints_m, within_m); }, poses, tolerance_m,
+                  notes);
   const std::vector<double> heading_rad = column_of(table, "heading_rad");
   for (std::size_t row = 0; row < poses.size(); ++row) poses[row].heading_rad = heading_rad[row];
-  return path_along_poses(poses, tolerance_m);
+  return fitted([&](double within_m) { return path_along_poses(poses, within_m); }, poses, tolerance_m,
+                notes);
 }
 
 }  // namespace
@@ -126,7 +185,8 @@ Schema path_schema() {
                     "chain of cubic Bezier curves in the map frame, four control points each"),
            optional("waypoints", text(), "CSV file with columns x_m and y_m, in the map frame"),
            optional("tolerance_m", number(kNotNegative),
-                    "how far the curve may be from dense waypoints; default 0.01, 0: through all of them")})
+                    "how far the curve may be from dense waypoints; default 0.01, more along the steps of a "
+                    "grid; 0: through all of them")})
           .with_exactly_one({"bezier_m", "waypoints"}));
 }
 
@@ -146,13 +206,15 @@ bool has_waypoints(const std::string& file) {
   return has("x_m") && !has("time_s");
 }
 
-Path path_from(const Document& document, const ReadOptions& options, std::vector<std::string>* notes) {
+Path path_from(const Document& document, const ReadOptions& options, std::vector<std::string>* notes,
+               std::optional<double> tolerance_m) {
   const Node root = document.root();
-  if (const auto poses = poses_in(root)) return path_along(*poses, kWaypointTolerance_m);
+  if (const auto poses = poses_in(root)) return path_along(*poses, tolerance_m, notes);
   check_document(document, "path", path_schema());
   if (const auto file = root.find("waypoints"))
-    return read_waypoints(resolve_file(*file, options), root.number_or("tolerance_m", kWaypointTolerance_m),
-                          NamedBy(*file));
+    return read_waypoints(resolve_file(*file, options),
+                          tolerance_m ? tolerance_m : root.optional_number("tolerance_m"), NamedBy(*file),
+                          notes);
   if (const auto tolerance = root.find("tolerance_m"))
     tolerance->fail("no such key", "only allowed with waypoints:");
   const Node curves = root["bezier_m"];
@@ -168,12 +230,13 @@ Path path_from(const Document& document, const ReadOptions& options, std::vector
   return std::move(chain.path);
 }
 
-Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& named_by) {
+Path read_waypoints(const std::string& file, std::optional<double> tolerance_m, const NamedBy& named_by,
+                    std::vector<std::string>* notes) {
   if (!is_waypoint_file(file)) {
     const Document document = Document::load(file, named_by);
     const auto poses = poses_in(document.root());
     if (!poses) document.root().fail("a CSV file with columns x_m and y_m, or a nav_msgs/Path");
-    return path_along(*poses, tolerance_m);
+    return path_along(*poses, tolerance_m, notes);
   }
   const CsvTable table = read_csv(
       file,
@@ -181,7 +244,7 @@ Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& 
         return name == "x_m" || name == "y_m" || name == "corner_radius_m" || name == "heading_rad";
       },
       named_by);
-  WaypointPath along = path_along(table, tolerance_m);
+  WaypointPath along = path_along(table, tolerance_m, notes);
   if (along.defect) fail_at_row(table, *along.defect);
   return std::move(along.path);
 }

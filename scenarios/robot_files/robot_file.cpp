@@ -1,9 +1,11 @@
 #include "scenarios/robot_files/robot_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "model/limit_table.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/effect_list.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
@@ -107,11 +109,32 @@ Footprint read_footprint(const Node& node) {
   return footprint;
 }
 
+/// Several required values that are absent make one error that lists them.
+void check_all_there(const Document& document, const Schema& schema) {
+  try {
+    check_document(document, "robot", schema);
+  } catch (const ConfigError& error) {
+    const Node root = document.root();
+    const auto is_there = [&](const std::string& key) {
+      const std::size_t dot = key.find('.');
+      const auto section = root.find(key.substr(0, dot));
+      return section && section->kind() == Value::Kind::map && section->has(key.substr(dot + 1));
+    };
+    std::vector<std::string> missing = required_robot_keys();
+    std::erase_if(missing, is_there);
+    const auto is_told = [&](const std::string& key) { return key.starts_with(error.detail().key); };
+    const bool told = std::any_of(missing.begin(), missing.end(), is_told);
+    if (error.detail().found != "nothing" || !told || missing.size() < 2) throw;
+    root.fail_found("nothing for " + text_of_list(missing), "a value for each required key",
+                    "docs/your_robot.md says where to find them");
+  }
+}
+
 }  // namespace
 
 Robot robot_from(const Document& document) {
   static const Schema schema = robot_schema();
-  check_document(document, "robot", schema);
+  check_all_there(document, schema);
   const Node root = document.root();
   Robot robot;
   robot.name = root.text_or("name", std::filesystem::path(document.file()).stem().string());

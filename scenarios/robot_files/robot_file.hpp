@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/robot.hpp"
 #include "scenarios/text/schema.hpp"
@@ -8,6 +9,9 @@
 namespace joulepath {
 
 [[nodiscard]] Schema robot_schema();
+
+/// Dotted keys that every robot file has.
+[[nodiscard]] std::vector<std::string> required_robot_keys();
 
 /// Reads a robot file. Throws ConfigError; `named_by` is its place in another file.
 [[nodiscard]] Robot read_robot(const std::string& file, const NamedBy& named_by = {});

@@ -116,4 +116,12 @@ Schema robot_schema() {
                 "relative 1-sigma of the calibration; absent: unknown")}));
 }
 
+std::vector<std::string> required_robot_keys() {
+  std::vector<std::string> keys;
+  for (const Schema::Key& section : robot_schema().keys)
+    for (const Schema::Key& key : section.schema.keys)
+      if (section.required && key.required) keys.push_back(section.name + "." + key.name);
+  return keys;
+}
+
 }  // namespace joulepath

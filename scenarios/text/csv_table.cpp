@@ -7,6 +7,7 @@
 
 #include "model/printable.hpp"
 #include "scenarios/text/document.hpp"
+#include "scenarios/text/utc_time.hpp"
 
 namespace joulepath {
 namespace {
@@ -23,6 +24,11 @@ std::string shown(std::string_view cell) {
   std::string text;
   for (const char c : cell.substr(0, 40)) text += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
   return "\"" + text + (cell.size() > 40 ? "..." : "") + "\"";
+}
+
+bool holds_times(const std::string& name) {
+  const auto has = [&](std::string_view word) { return name.find(word) != std::string::npos; };
+  return has("time") || has("Time") || has("stamp") || has("date") || has("Date");
 }
 
 class CsvParser {
@@ -130,6 +136,8 @@ class CsvParser {
     const char* first = cell.data() + (cell.front() == '+' ? 1 : 0);
     const auto [end, error] = std::from_chars(first, cell.data() + cell.size(), number);
     if (error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(number)) return number;
+    if (const auto time_ns = holds_times(table_.header[index]) ? utc_nanoseconds(cell) : std::nullopt)
+      return 1e-9 * static_cast<double>(*time_ns);
     const bool not_finite = error == std::errc{} && end == cell.data() + cell.size();
     fail(column, table_.header[index], shown(cell), "a finite number",
          not_finite                                 ? "leave the cell empty where a value is missing"

@@ -23,9 +23,9 @@ struct CsvTable {
 };
 
 /// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (as in the header),
-/// quotes, CRLF and a byte order mark are accepted, lines that begin with # are comments. Throws ConfigError
-/// with line and column: no header, a name twice, a row of another length, text or a non-finite number in a
-/// requested column.
+/// quotes, CRLF and a byte order mark are accepted, lines that begin with # are comments. Dates with a time
+/// of day (ISO 8601) in a column of times are seconds since 1970. Throws ConfigError with line and column: no
+/// header, a name twice, a row of another length, text or a non-finite number in a requested column.
 [[nodiscard]] CsvTable read_csv(const std::string& file,
                                 const std::function<bool(const std::string&)>& wanted,
                                 const NamedBy& named_by = {});

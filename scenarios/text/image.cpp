@@ -4,6 +4,8 @@
 
 #include <cctype>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 #include "scenarios/text/document.hpp"
 
@@ -11,6 +13,8 @@ namespace joulepath {
 namespace {
 
 constexpr long kMaxPixels = 100'000'000;
+constexpr std::pair<std::string_view, std::string_view> kOtherImages[] = {
+    {"BM", "BMP"}, {"\xFF\xD8\xFF", "JPEG"}, {"GIF8", "GIF"}, {{"II*\0", 4}, "TIFF"}, {{"MM\0*", 4}, "TIFF"}};
 
 class ImageFile {
  public:
@@ -20,6 +24,10 @@ class ImageFile {
   Image read() {
     if (bytes_.rfind("P5", 0) == 0 || bytes_.rfind("P2", 0) == 0) return read_pgm();
     if (bytes_.rfind("\x89PNG", 0) == 0) return read_png();
+    for (const auto& [magic, format] : kOtherImages)
+      if (bytes_.starts_with(magic))
+        throw named_by_.error(file_, "a " + std::string(format) + " image", "an image in PGM (P2, P5) or PNG",
+                              "ImageMagick converts it: convert " + file_ + " map.png");
     fail(bytes_.empty() ? "an empty file" : "a file of another format", "an image in PGM (P2, P5) or PNG");
   }
 

@@ -6,6 +6,7 @@
 #include "extensions/vda5050/state_lines.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/run_log.hpp"
+#include "scenarios/text/utc_time.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {
@@ -36,7 +37,7 @@ TEST_F(Bags, StatesOfVda5050AreALogPerRobot) {
   EXPECT_EQ(run.trajectory.battery_voltage_V, std::vector<double>(5, 48.0));
   EXPECT_EQ(utc_nanoseconds("1970-01-02T00:00:01.25Z"), std::uint64_t{86'401'250'000'000});
   for (const char* wrong : {"", "2726-05-01T10:00:39Z", "1970-01-02", "1970-13-02T00:00:01Z",
-                            "1970-01-02T00:00:01", "1970-01-02T00:00:01.x5Z"})
+                            "1970-01-02T00:00:01+2", "1970-01-02T00:00:01.x5Z"})
     EXPECT_FALSE(utc_nanoseconds(wrong)) << wrong;
 }
 

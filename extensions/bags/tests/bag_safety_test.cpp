@@ -55,6 +55,45 @@ class ForeignBags : public Bags {
   static std::string table(const std::string& columns) { return "CREATE TABLE " + columns; }
 };
 
+/// Messages that are still in the write-ahead log are read; nothing is written beside the bag.
+TEST_F(ForeignBags, WriteAheadLogsAreReadAndNothingIsWrittenBeside) {
+  namespace fs = std::filesystem;
+  const std::string open = scratch_.at("open.db3"), bag = scratch_.at("folder/bag.db3");
+  fs::create_directories(scratch_.at("folder"));
+  sqlite3* writer = nullptr;
+  sqlite3_open(open.c_str(), &writer);
+  for (const std::string& statement :
+       {std::string("PRAGMA journal_mode=WAL"), table(kTopics), table(kMessageTable),
+        std::string("INSERT INTO topics VALUES(1, '/odom', 'nav_msgs/msg/Odometry', 'cdr')"),
+        std::string("INSERT INTO messages(topic_id, timestamp, data) VALUES(1, 5, x'00010000')")})
+    EXPECT_EQ(sqlite3_exec(writer, statement.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << statement;
+  const auto files = [&] {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(scratch_.at("folder")))
+      names.push_back(entry.path().filename().string() + " " + std::to_string(entry.file_size()));
+    std::ranges::sort(names);
+    return names;
+  };
+  // As after a crash of the recorder, with its log, and as after its last checkpoint, without one.
+  fs::copy_file(open, bag);
+  fs::copy_file(open + "-wal", bag + "-wal");
+  std::vector<std::string> before = files();
+  EXPECT_EQ(reading(bag).messages, 1u) << reading(bag).error;
+  EXPECT_EQ(files(), before);
+  sqlite3_close(writer);
+  fs::remove(bag + "-wal");
+  fs::copy_file(open, bag, fs::copy_options::overwrite_existing);
+  before = files();
+  EXPECT_EQ(reading(bag).messages, 1u) << reading(bag).error;
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(ForeignBags, BagsOfRos1NameTheConverter) {
+  const std::string error = reading(scratch_.write("drive.bag", "#ROSBAG V2.0\n")).error;
+  EXPECT_NE(error.find("found a bag of ROS 1"), std::string::npos) << error;
+  EXPECT_NE(error.find("rosbags-convert"), std::string::npos) << error;
+}
+
 TEST_F(ForeignBags, ViewsInPlaceOfTablesAreRefused) {
   const std::string rows = std::string(" AS ") + kEndless;
   const std::vector<std::pair<std::string, std::string>> views{

@@ -188,6 +188,32 @@ TEST(Order, LegsEndAtActionsAndCarryTheirPayload) {
   }
 }
 
+TEST(Order, TheOnlyNodeIsReachedFromTheRobotsPose) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.write("o.json", order(node(0, 3, 1), ""));
+  MissionRequest mission{.order_file = file};
+  EXPECT_THROW(follow_order(mission), ConfigError);
+  mission.marks.keys["start"] = {};
+  mission.start.pose = {1.0, 1.0, 0.5};
+  follow_order(mission);
+  ASSERT_EQ(mission.legs.size(), 1u);
+  EXPECT_EQ(mission.legs[0].to, "n0");
+  EXPECT_FALSE(mission.legs[0].path.has_value());
+  EXPECT_EQ(mission.stations.at("n0").x_m, 3);
+  EXPECT_EQ(mission.start.pose.x_m, 1);
+}
+
+TEST(Order, CoordinatesThatLookLikeMillimetersAreDoubted) {
+  const ScratchDirectory scratch;
+  const auto notes = [&](double step) {
+    return order_notes(read_order(
+        scratch.write("o.json", order(node(0, 0, 0) + "," + node(2, step, 0) + "," + node(4, 2 * step, 0),
+                                      edge(1) + "," + edge(3)))));
+  };
+  EXPECT_TRUE(notes(30).empty());
+  EXPECT_EQ(notes(2500).size(), 1u);
+}
+
 TEST(Order, HorizonIsNotPlanned) {
   const ScratchDirectory scratch;
   std::string horizon = node(4, 9, 0) + "", last = edge(3);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenarios/text/image.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath {
@@ -115,6 +116,22 @@ TEST(MapFile, PngAveragesColorsAndScaleTakesSeeThroughAsUnknown) {
   const auto scale =
       scratch.write("s.yaml", map_yaml("m.png", "mode: scale\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"));
   EXPECT_EQ(read_map(scale).occupancy_percent, (std::vector<std::int8_t>{100, 0, kUnknownCell}));
+}
+
+TEST(MapFile, ImagesOfOtherFormatsNameTheCommandThatConverts) {
+  const ScratchDirectory scratch;
+  for (const auto& [bytes, name] : {std::pair<std::string, std::string>{"BM....", "BMP"},
+                                    {"\xFF\xD8\xFF\xE0", "JPEG"},
+                                    {std::string("II*\0", 4), "TIFF"}}) {
+    const std::string image = scratch.write("map.img", bytes);
+    try {
+      static_cast<void>(read_image(image, {}));
+      ADD_FAILURE() << name;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().found, "a " + name + " image");
+      EXPECT_NE(error.detail().hint.find("convert " + image), std::string::npos);
+    }
+  }
 }
 
 TEST(MapFile, TurnedOriginTurnsTheCells) {

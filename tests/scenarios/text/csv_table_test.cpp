@@ -30,6 +30,15 @@ TEST(CsvTable, EmptyCellsAreMissingValues) {
   EXPECT_EQ(table.line_of_row, (std::vector<int>{2, 3}));
 }
 
+TEST(CsvTable, DatesInAColumnOfTimesAreSeconds) {
+  const CsvTable table = parse_csv(
+      "time\n1970-01-01T00:00:00Z\n2024-02-29 12:30:15.25\n2024-02-29T14:30:15.25+02:00\n", "t.csv", kAll);
+  EXPECT_EQ(table.columns[0], (std::vector<double>{0, 1709209815.25, 1709209815.25}));
+  for (const char* text :
+       {"time\n2023-02-29T00:00:00Z\n", "time\n2024-02-29T25:00:00Z\n", "speed\n2024-02-28T00:00:00Z\n"})
+    EXPECT_THROW(static_cast<void>(parse_csv(text, "t.csv", kAll)), ConfigError) << text;
+}
+
 TEST(CsvTable, UnrequestedColumnsMayContainAnything) {
   const CsvTable table = parse_csv("note,a,note\n\"x, y\",1,nan\nz,2,\n", "t.csv",
                                    [](const std::string& name) { return name == "a"; });

@@ -1,0 +1,73 @@
+#include "extensions/nav2/robot_of_parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "scenarios/robot_files/robot_sources.hpp"
+#include "tests/scenarios/scratch_directory.hpp"
+
+namespace joulepath {
+namespace {
+
+std::map<std::string, std::string> values_in(const RobotDraft& draft) {
+  std::map<std::string, std::string> values;
+  for (const DraftValue& value : draft.values) values[value.key] = value.text;
+  return values;
+}
+
+TEST(RobotOfParameters, LimitsWheelsAndFootprintWithTheirLines) {
+  const ScratchDirectory scratch;
+  const RobotDraft draft = draft_from({scratch.write("params.yaml", R"(velocity_smoother:
+  ros__parameters:
+    max_velocity: [0.4, 0.0, 1.2]
+    max_accel: [0.6, 0.0, 2.0]
+    max_decel: [-0.7, 0.0, -2.0]
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      footprint: "[[0.3, 0.2], [-0.2, 0.2], [-0.2, -0.2], [0.3, -0.2]]"
+diff_drive_controller:
+  ros__parameters:
+    wheel_separation: 0.34
+    wheel_radius: 0.08
+)")},
+                                      {});
+  auto values = values_in(draft);
+  EXPECT_EQ(values["limits.speed_m_s"], "0.4");
+  EXPECT_EQ(values["limits.deceleration_m_s2"], "0.7");
+  EXPECT_EQ(values["limits.yaw_rate_rad_s"], "1.2");
+  EXPECT_EQ(values["geometry.half_track_m"], "0.17");
+  EXPECT_EQ(values["geometry.wheel_radius_m"], "0.08");
+  EXPECT_EQ(values["footprint.polygon_m"], "[[0.3, 0.2], [-0.2, 0.2], [-0.2, -0.2], [0.3, -0.2]]");
+  for (const DraftValue& value : draft.values)
+    if (value.key == "limits.acceleration_m_s2") {
+      EXPECT_NE(value.origin.find("params.yaml line 4"), std::string::npos);
+    }
+}
+
+TEST(RobotOfParameters, RmfFleetsGiveLimitsMassBatteryAndPower) {
+  const ScratchDirectory scratch;
+  auto values = values_in(draft_from({scratch.write("config.yaml", R"(rmf_fleet:
+  name: mover
+  limits: {linear: [0.6, 0.8], angular: [0.7, 1.9]}
+  profile: {footprint: 0.35, vicinity: 0.5}
+  battery_system: {voltage: 24.0, capacity: 30.0, charging_current: 8.0}
+  mechanical_system: {mass: 45.0, moment_of_inertia: 4.0, friction_coefficient: 0.02}
+  ambient_system: {power: 25.0}
+  recharge_threshold: 0.15
+)")},
+                                     {}));
+  EXPECT_EQ(values["limits.speed_m_s"], "0.6");
+  EXPECT_EQ(values["limits.yaw_acceleration_rad_s2"], "1.9");
+  EXPECT_EQ(values["inertia.chassis_mass_kg"], "45");
+  EXPECT_EQ(values["inertia.chassis_yaw_inertia_kg_m2"], "4");
+  EXPECT_EQ(values["effects"], "rolling_resistance: {coefficient: 0.02}");
+  EXPECT_EQ(values["battery.capacity_Wh"], "720");
+  EXPECT_EQ(values["battery.reserve_fraction"], "0.15");
+  EXPECT_EQ(values["power.standby_W"], "25");
+  EXPECT_EQ(values["footprint.radius_m"], "0.35");
+}
+
+}  // namespace
+}  // namespace joulepath

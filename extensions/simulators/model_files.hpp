@@ -1,0 +1,21 @@
+#pragma once
+
+#include "extensions/simulators/mechanism.hpp"
+#include "extensions/simulators/xml_file.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Mechanism read_urdf(const XmlElement& root);
+[[nodiscard]] Mechanism read_sdf(const XmlElement& root);
+[[nodiscard]] Mechanism read_mjcf(const XmlElement& root);
+
+/// By its root element. Throws ConfigError for other XML files.
+[[nodiscard]] Mechanism read_mechanism(const std::string& file);
+
+/// Turns by roll, pitch and yaw, as URDF and SDF mean them.
+[[nodiscard]] Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy_rad);
+
+/// What the plugins of a differential drive state, in Gazebo's old and new names.
+void read_drive_plugins(const XmlElement& root, Mechanism& mechanism);
+
+}  // namespace joulepath

@@ -1,0 +1,147 @@
+#include <map>
+#include <set>
+
+#include "extensions/simulators/model_files.hpp"
+#include "scenarios/text/quoted.hpp"
+
+namespace joulepath {
+namespace {
+
+Eigen::Isometry3d urdf_origin(const XmlElement& element) {
+  const auto origin = element.find("origin");
+  if (!origin) return Eigen::Isometry3d::Identity();
+  return placed(origin->vector(origin->attribute("xyz").value_or("0 0 0")),
+                origin->vector(origin->attribute("rpy").value_or("0 0 0")));
+}
+
+void add_urdf_mass(const XmlElement& element, MechanismLink& link) {
+  const auto inertial = element.find("inertial");
+  if (!inertial) return;
+  const auto mass = inertial->find("mass"), inertia = inertial->find("inertia");
+  if (!mass || !inertia) inertial->fail("no mass or no inertia", "<mass value=...> and <inertia ixx=...>");
+  const Eigen::Isometry3d pose = link.pose * urdf_origin(*inertial);
+  const auto moment = [&](const char* name) {
+    return inertia->number(inertia->attribute(name).value_or("0"));
+  };
+  Eigen::Matrix3d own;
+  own << moment("ixx"), moment("ixy"), moment("ixz"), moment("ixy"), moment("iyy"), moment("iyz"),
+      moment("ixz"), moment("iyz"), moment("izz");
+  link.has_mass = true;
+  link.mass_kg = mass->number(mass->required("value"));
+  link.center_m = pose.translation();
+  link.inertia_kg_m2 = pose.rotation() * own * pose.rotation().transpose();
+}
+
+void add_urdf_shapes(const XmlElement& element, MechanismLink& link) {
+  for (const XmlElement& collision : element.children("collision")) {
+    const auto geometry = collision.find("geometry");
+    if (!geometry) continue;
+    const Eigen::Isometry3d pose = link.pose * urdf_origin(collision);
+    const auto size = [](const XmlElement& shape, const char* name) {
+      return shape.number(shape.required(name));
+    };
+    for (const XmlElement& shape : geometry->children())
+      if (shape.name() == "box")
+        add_shape(link, pose, box_points(shape.vector(shape.required("size"))));
+      else if (shape.name() == "cylinder" || shape.name() == "capsule")
+        add_shape(link, pose, cylinder_points(size(shape, "radius"), size(shape, "length")),
+                  size(shape, "radius"));
+      else if (shape.name() == "sphere")
+        add_shape(link, pose, sphere_points(size(shape, "radius")), size(shape, "radius"));
+      else
+        link.has_mesh = true;
+  }
+}
+
+MechanismJoint urdf_joint(const XmlElement& element) {
+  const std::string type = element.required("type");
+  MechanismJoint joint{.name = element.required("name"),
+                       .place = element.place(),
+                       .turns = type == "continuous" || type == "revolute",
+                       .fixed = type == "fixed",
+                       .axis = Eigen::Vector3d::UnitX()};
+  const auto link_of = [&](const char* name) {
+    const auto link = element.find(name);
+    if (!link) element.fail("no <" + std::string(name) + ">", "<parent link=...> and <child link=...>");
+    return link->required("link");
+  };
+  joint.parent = link_of("parent");
+  joint.child = link_of("child");
+  if (const auto axis = element.find("axis")) joint.axis = axis->vector(axis->required("xyz"));
+  if (const auto dynamics = element.find("dynamics")) {
+    joint.damping_Nm_s_rad = dynamics->number_at("damping").value_or(0);
+    joint.friction_Nm = dynamics->number_at("friction").value_or(0);
+  }
+  if (const auto limit = element.find("limit")) joint.speed_rad_s = limit->number_at("velocity");
+  return joint;
+}
+
+void refuse_xacro(const XmlElement& element) {
+  if (element.name().starts_with("xacro:") && element.name() != "xacro:property")
+    element.fail("an element of xacro", "a URDF without xacro",
+                 "expand it: xacro robot.urdf.xacro > robot.urdf");
+  for (const XmlElement& child : element.children()) refuse_xacro(child);
+}
+
+/// Joints with a transmission or with a velocity interface of ros2_control.
+void mark_urdf_drives(const XmlElement& root, Mechanism& mechanism) {
+  const auto mark = [&](const std::string& name) {
+    for (MechanismJoint& joint : mechanism.joints)
+      if (joint.name == name) joint.is_driven = true;
+  };
+  for (const XmlElement& transmission : root.children("transmission"))
+    for (const XmlElement& joint : transmission.children("joint")) mark(joint.required("name"));
+  for (const XmlElement& control : root.children("ros2_control"))
+    for (const XmlElement& joint : control.children("joint"))
+      for (const XmlElement& interface : joint.children("command_interface"))
+        if (interface.attribute("name") == "velocity") mark(joint.required("name"));
+}
+
+}  // namespace
+
+Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy_rad) {
+  return Eigen::Translation3d(at_m) * Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
+}
+
+Mechanism read_urdf(const XmlElement& root) {
+  refuse_xacro(root);
+  Mechanism mechanism{.file = root.file(), .name = root.attribute("name").value_or("")};
+  std::map<std::string, Eigen::Isometry3d> pose_of;
+  std::set<std::string> below;  // links that a joint holds
+  const std::vector<XmlElement> links = root.children("link"), joints = root.children("joint");
+  for (const XmlElement& element : joints) {
+    mechanism.joints.push_back(urdf_joint(element));
+    if (!below.insert(mechanism.joints.back().child).second)
+      element.fail("a second joint to " + joulepath::quoted(mechanism.joints.back().child),
+                   "one joint to each link");
+  }
+  for (const XmlElement& element : links)
+    if (const std::string name = element.required("name"); !below.contains(name))
+      pose_of[name] = Eigen::Isometry3d::Identity();
+  for (std::size_t known = 0; known < pose_of.size();) {
+    known = pose_of.size();
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      if (const auto parent = pose_of.find(mechanism.joints[i].parent); parent != pose_of.end())
+        pose_of[mechanism.joints[i].child] = parent->second * urdf_origin(joints[i]);
+  }
+  for (const XmlElement& element : links) {
+    const auto pose = pose_of.find(element.required("name"));
+    if (pose == pose_of.end()) element.fail("no way to it from the first link", "a tree of links and joints");
+    MechanismLink link{.name = pose->first, .place = element.place(), .pose = pose->second};
+    add_urdf_mass(element, link);
+    add_urdf_shapes(element, link);
+    mechanism.links.push_back(std::move(link));
+  }
+  for (MechanismJoint& joint : mechanism.joints)
+    if (const auto child = pose_of.find(joint.child); child != pose_of.end()) {
+      joint.place_m = child->second.translation();
+      joint.axis = child->second.rotation() * joint.axis.normalized();
+    }
+  mark_urdf_drives(root, mechanism);
+  read_drive_plugins(root, mechanism);
+  return mechanism;
+}
+
+}  // namespace joulepath
