@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Laws that plans between any stops must keep, on the missions of programs.py, as Markdown.
+
+usage: laws.py FOLDER PROGRAM NOTE [EVERY]
+The same mission mirrored, turned and moved, with other seeds, and made easier: the cost must stay the same or fall.
+EVERY: takes every so many missions of each floor.
+"""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+import programs
+
+CLOSE_PERCENT, SHARE, WORST_PERCENT = 0.1, 0.98, 0.5
+SEEDS = range(2, 5)
+
+
+def read_map(file):
+    """The keys of a map file and the rows of its image, the first at the largest y."""
+    keys = dict(line.split(": ", 1) for line in file.read_text().splitlines() if ": " in line)
+    floor = programs.Floor("", file.parent / keys["image"], float(keys["resolution"]), json.loads(keys["origin"]), {})
+    return keys, [floor.cells[k * floor.width:(k + 1) * floor.width] for k in range(floor.height)]
+
+
+def write_map(folder, name, keys, rows, origin):
+    (folder / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (len(rows[0]), len(rows)) + b"".join(rows))
+    changed = {**keys, "image": f"{name}.pgm", "origin": json.dumps([*origin, 0])}
+    (folder / f"{name}.yaml").write_text("".join(f"{key}: {value}\n" for key, value in changed.items()))
+    return str(folder / f"{name}.yaml")
+
+
+class Motions:
+    """Images of a mission under motions of the plane that map cells to cells."""
+
+    def __init__(self, folder):
+        self.folder, self.maps = folder, {}
+
+    def _map(self, mission, name, change):
+        key = mission["map"], name
+        if key not in self.maps:
+            keys, rows = read_map(pathlib.Path(mission["map"]))
+            x_m, y_m, *_ = json.loads(keys["origin"])
+            size_m = [count * float(keys["resolution"]) for count in (len(rows[0]), len(rows))]
+            self.maps[key] = write_map(self.folder, f"{len(self.maps)}_{name}", keys, *change(rows, (x_m, y_m), size_m))
+        return self.maps[key]
+
+    def _image(self, mission, name, change, place, turn):
+        stations = {}
+        for station, at in mission["stations"].items():
+            x_m, y_m = place(at["x_m"], at["y_m"])
+            stations[station] = {"x_m": x_m, "y_m": y_m}
+            if "heading_rad" in at:
+                stations[station]["heading_rad"] = turn(at["heading_rad"])
+        return {**mission, "map": self._map(mission, name, change), "stations": stations}
+
+    def mirrored(self, mission):
+        return self._image(mission, "mirrored",
+                           lambda rows, at, size: (rows[::-1], (at[0], -at[1] - size[1])),
+                           lambda x, y: (x, -y), lambda heading: -heading)
+
+    def turned(self, mission):
+        return self._image(mission, "turned",
+                           lambda rows, at, size: ([bytes(row[-1 - k] for row in rows) for k in range(len(rows[0]))],
+                                                   (-at[1] - size[1], at[0])),
+                           lambda x, y: (-y, x), lambda heading: heading + math.pi / 2)
+
+    def moved(self, mission):
+        return self._image(mission, "moved", lambda rows, at, size: (rows, (at[0] + 100, at[1] - 40)),
+                           lambda x, y: (x + 100, y - 40), lambda heading: heading)
+
+
+class Planner:
+    def __init__(self, folder, program):
+        self.folder, self.program = folder, program
+
+    def plan(self, mission, seed=1):
+        file, out = self.folder / "mission.json", self.folder / "out"
+        file.write_text(json.dumps({"schema": "joulepath/mission/1", **mission}))
+        (out / "plan.json").unlink(missing_ok=True)
+        subprocess.run([self.program, "plan", file, "--out", out, "--force", "--solver", "fast", "--seed", str(seed),
+                        "--without", "baselines,path_bound", "-q"], check=False, capture_output=True)
+        answer = json.loads((out / "plan.json").read_text())
+        return answer if answer["status"] in ("optimal", "feasible") else {"energy_J": math.inf, "duration_s": math.inf}
+
+
+def easier(mission, plan):
+    """(law, an easier mission, a harder one): the easier one costs no more."""
+    yield "a smaller clearance", {**mission, "clearance_m": 0.02}, mission
+    if mission["legs"][0].get("payload_kg"):
+        half = [{**leg, "payload_kg": leg["payload_kg"] / 2} for leg in mission["legs"]]
+        yield "half the payload", {**mission, "legs": half}, mission
+    soon, late = ({**mission, "objective": {"minimize": "energy", "deadline_s": share * plan["duration_s"]}}
+                  for share in (0.99, 1.0))
+    yield "a later deadline", late, soon
+    stop = mission["stations"]["a"]
+    if "heading_rad" in stop:
+        free = {name: {key: value for key, value in at.items() if name != "a" or key != "heading_rad"}
+                for name, at in mission["stations"].items()}
+        yield "a free heading", {**mission, "stations": free}, mission
+    else:
+        turn = math.atan2(mission["stations"]["b"]["y_m"] - stop["y_m"], mission["stations"]["b"]["x_m"] - stop["x_m"])
+        named = {**mission["stations"], "a": {**stop, "heading_rad": round(turn, 6)}}
+        yield "a free heading", mission, {**mission, "stations": named}
+
+
+def even_robot(folder):
+    """The Nomad with the same motor on both sides: what is mirrored costs the same."""
+    text = (programs.SCENARIOS / "robots/nomad_super_scout.yaml").read_text()
+    lines = ["  friction_torque_Nm: 0.36" if line.startswith("  friction_torque_Nm: {left") else line
+             for line in text.splitlines()]
+    (folder / "even.yaml").write_text("\n".join(lines) + "\n")
+    return str(folder / "even.yaml")
+
+
+def main():
+    folder, program, note = pathlib.Path(sys.argv[1]).resolve(), *sys.argv[2:4]
+    every = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+    folder.mkdir(parents=True, exist_ok=True)
+    motions, planner, robot, changes = Motions(folder), Planner(folder, program), even_robot(folder), {}
+    for k, (_, _, _, mission) in list(enumerate(programs.missions(folder)))[::every]:
+        mission = {**mission, "robot": robot}
+        plan = planner.plan(mission)
+
+        def note_change(law, cost_J, least_J, both_ways=False):
+            percent = 100 * (cost_J / least_J - 1)
+            changes.setdefault(law, []).append(abs(percent) if both_ways else max(0.0, percent))
+            print(k, law, f"{least_J:.2f} {cost_J:.2f} J {percent:+.2f} %", file=sys.stderr, flush=True)
+
+        for law in ("mirrored", "turned", "moved"):
+            note_change(law, planner.plan(getattr(motions, law)(mission))["energy_J"], plan["energy_J"], True)
+        for seed in SEEDS:
+            note_change("another seed", planner.plan(mission, seed)["energy_J"], plan["energy_J"], True)
+        for law, easy, hard in easier(mission, plan):
+            costs = [plan if asked is mission else planner.plan(asked) for asked in (easy, hard)]
+            if math.isfinite(costs[1]["energy_J"]):
+                note_change(law, costs[0]["energy_J"], costs[1]["energy_J"])
+    print(f"# Laws of plans\n\n{note}\n")
+    print("Missions of `benchmarks/ways/programs.py`, the Nomad with two motors alike. The first four rows count how far "
+          "the same problem ends from itself, the others by how much an easier problem is dearer than a harder one.\n")
+    print(f"| law | plans | within {CLOSE_PERCENT} % | median | worst | at least {100 * SHARE:.0f} % within {CLOSE_PERCENT} % "
+          f"and worst {WORST_PERCENT} % |")
+    print("|---|---|---|---|---|---|")
+    for law, values in changes.items():
+        share = sum(value <= CLOSE_PERCENT for value in values) / len(values)
+        kept = share >= SHARE and max(values) <= WORST_PERCENT
+        print(f"| {law} | {len(values)} | {100 * share:.0f} % | {programs.quantile(values, 0.5):.3f} % | {max(values):.2f} % | "
+              f"{'yes' if kept else '**no**'} |")
+
+
+if __name__ == "__main__":
+    main()
