@@ -1,12 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "planner/joint/joint_search.hpp"
-#include "planner/legs/leg_timing.hpp"
-#include "planner/motion/motion_energy.hpp"
-#include "planner/motion/path_motion.hpp"
 #include "planner/ways/way_refinement.hpp"
 
 // Design: docs/decisions/0212-joint-path-and-speed.md
@@ -202,7 +197,8 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
   return {legs};
 }
 
-/// Cost of the legs along their present paths on the plan's grid, turns at their stops included.
+/// Cost of the legs along their present paths, on the plan's grid but for turns, those at their stops
+/// included.
 double RefinedRun::driven_J(std::size_t first, std::size_t count) const {
   const std::vector<LegPath> all = paths();
   double cost_J = 0;
@@ -236,15 +232,17 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
   }
 }
 
-/// The cheapest of the present paths and those of the joint program.
+/// The cheapest of the present paths and those of the joint program that keeps every limit; the present ones
+/// where none does.
 void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
                                std::array<Starts, 2> starts, double present_J) {
   struct Candidate {
     double cost_J{};
     std::vector<Part> parts{};
   };
-  std::vector<Candidate> candidates;
   const std::vector<Part> present = parts_;
+  std::vector<Candidate> candidates;
+  if (std::isfinite(present_J)) candidates.push_back({present_J, present});
   for (Starts& group : starts)
     for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
       parts_ = present;
@@ -255,10 +253,10 @@ void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost_J < b.cost_J; });
   for (Candidate& candidate : candidates) {
-    if (!(candidate.cost_J < present_J)) break;
     parts_ = std::move(candidate.parts);
     if (!drivable(first, count)) continue;
-    for (std::size_t k = first; k < first + count; ++k) parts_[k].driving = driving(k, parts_[k].path);
+    for (std::size_t k = first; k < first + count; ++k)
+      if (parts_[k].refined) parts_[k].driving = driving(k, parts_[k].path);
     return;
   }
   parts_ = present;
@@ -295,7 +293,6 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
   }
   const double present_J = barred ? kNoLimit : driven_J(first, count);
-  if (getenv("JP_DBG")) fprintf(stderr, "join %zu+%zu found %.2f\n", first, count, 0.0);
   auto starts = joint_starts(first, query);
   if (count > 1)
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);

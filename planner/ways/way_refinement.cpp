@@ -50,7 +50,8 @@ PathScore RefinedRun::turn_after(std::size_t k, const Path& path) const {
 
 PathScore RefinedRun::driving(std::size_t k, const Path& path) const {
   const std::size_t index = run_.first + k;
-  return score_path(path, run_.contexts[k].mission.legs[index], index, run_.contexts[k]);
+  const ChoiceContext& context = run_.contexts[k];
+  return score_path(path, context.mission.legs[index], index, context, context.options.nodes);
 }
 
 /// Score of the leg's present path.

@@ -1,5 +1,5 @@
 // Replacements for the parts that the browser build leaves out, because their libraries are missing: Ipopt,
-// OMPL, NLopt, yaml-cpp, libpng. The page does not use them; a question that needs them gets an error
+// OMPL, yaml-cpp, libpng. The page does not use them; a question that needs them gets an error
 // message.
 #include <cstdlib>
 
@@ -37,7 +37,6 @@ JerkSolution solve_with_ipopt(const JerkProgram&, const IpoptOptions&) {
 
 SearchResult search_polyline(const FreeSpace&, const SearchRequest&) { refuse("a search for a route"); }
 double polyline_cost(const std::vector<Point2>&, const TravelCost&) { refuse("a search for a route"); }
-
 
 OccupancyGrid read_map(const std::string&, const NamedBy&, const ReadOptions&) { refuse("a map file"); }
 std::string map_image_file(const std::string&, const ReadOptions&) { refuse("a map file"); }
