@@ -25,9 +25,8 @@ constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the leas
 constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
 constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
-/// A cost that changes by less in so many steps has converged: near obstacles the rest is a flat valley.
-constexpr double kNoGain = 1e-4, kNearTolerance = 5;
-constexpr int kPatience = 8;
+constexpr double kNearTolerance = 5;       ///< of a solution whose cost no longer changes
+constexpr int kPatience = 8;               ///< steps: NewtonOptions::least_gain
 
 /// A part of a piece between two nodes of the speed.
 struct Part {
@@ -548,7 +547,7 @@ JointSolution Newton::run() {
     solution.duration_s = sums.duration_s;
     const double error = sums.error();
     double& before = recent[static_cast<std::size_t>(solution.steps % kPatience)];
-    const bool gains = !(std::abs(before - sums.cost) < kNoGain * sums.cost);
+    const bool gains = !(std::abs(before - sums.cost) < options_.least_gain * sums.cost);
     before = sums.cost;
     solution.converged =
         error < options_.tolerance || (!gains && !sums.lost && sums.is_near(options_.tolerance));

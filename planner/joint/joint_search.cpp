@@ -15,7 +15,7 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
-constexpr double kFineTolerance = 1e-4, kWarmGap = 5e-3;
+constexpr double kFineTolerance = 1e-4, kWarmGap = 5e-3, kFineGain = 1e-5;
 constexpr int kMostSteps = 50;  ///< of a start
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
@@ -64,7 +64,8 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   }
   fine.start.parameters = coarse.solution.parameters;
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
-  fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
+  fine.solution =
+      solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap, .least_gain = kFineGain}, squares);
   counts.steps += fine.solution.steps;
   const bool better =
       fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
@@ -119,7 +120,8 @@ std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
     candidate.start.program.margin_m += short_m + kMarginStep_m;
     candidate.start.parameters = candidate.solution.parameters;
     const JointSolution again =
-        solve(candidate.start, {.tolerance = kFineTolerance, .gap = 1e-2}, candidate.solution.squares);
+        solve(candidate.start, {.tolerance = kFineTolerance, .gap = 1e-2, .least_gain = kFineGain},
+              candidate.solution.squares);
     counts.steps += again.steps;
     if (!again.parameters.allFinite()) return std::nullopt;
     candidate.solution = again;
@@ -173,6 +175,9 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
     ++counts.starts;
     counts.steps += candidate.solution.steps;
     counts.failed += !candidate.solution.converged && !(candidate.solution.cost_J > kGiveUp * best_J);
+      fprintf(stderr, "    start: conv %d feas %d cost %.4f steps %d pieces %zu\n",
+              candidate.solution.converged, candidate.solution.feasible, candidate.solution.cost_J,
+              candidate.solution.steps, candidate.start.program.pieces.size());
     if (!candidate.solution.feasible) continue;
     if (candidate.solution.converged) best_J = std::min(best_J, candidate.solution.cost_J);
     found.push_back(std::move(candidate));

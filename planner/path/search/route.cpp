@@ -40,7 +40,7 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
 /// Adds a special message for a place outside the map, or where the map knows nothing.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
-  const CellIndex cell = map.cell_of(verdict.x_m, verdict.y_m);
+  const auto cell = map.cell_of(verdict.x_m, verdict.y_m);
   const ObstacleField::Extent extent = field.extent_m();
   char text[320];
   if (map.contains(cell)) {
