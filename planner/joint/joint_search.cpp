@@ -175,9 +175,6 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
     ++counts.starts;
     counts.steps += candidate.solution.steps;
     counts.failed += !candidate.solution.converged && !(candidate.solution.cost_J > kGiveUp * best_J);
-      fprintf(stderr, "    start: conv %d feas %d cost %.4f steps %d pieces %zu\n",
-              candidate.solution.converged, candidate.solution.feasible, candidate.solution.cost_J,
-              candidate.solution.steps, candidate.start.program.pieces.size());
     if (!candidate.solution.feasible) continue;
     if (candidate.solution.converged) best_J = std::min(best_J, candidate.solution.cost_J);
     found.push_back(std::move(candidate));

@@ -249,6 +249,7 @@ void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
       take(first, joined);
       if (const double cost_J = driven_J(first, count); std::isfinite(cost_J))
         candidates.push_back({cost_J, parts_});
+    }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost_J < b.cost_J; });
   for (Candidate& candidate : candidates) {
