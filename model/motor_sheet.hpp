@@ -31,21 +31,25 @@ struct SheetMotor {
   double resistance_ohm{};
   double torque_constant_Nm_A{};  ///< and voltage constant, at the motor's shaft
   double friction_torque_Nm{};
-  double
-      loss_fraction{};  ///< of the transmitted torque: gear_efficiency; below 0: the sheet contradicts itself
+  /// Of the transmitted torque: gear_efficiency. Below 0 the sheet contradicts itself.
+  double loss_fraction{};
 };
 
+// clang-format off
 /// The constants that a data sheet states, by V = R i + K w and T = (1 - loss) K i - T_m at its shaft:
 ///
-///   R = V / i_s   of the stall point, or of no load and rated point   R = V (w_0 - w_r) / (i_r w_0 - i_0
-///   w_r) K = (V - R i_0) / w_0 (1 - loss) K = T / (i - i_0),  T_m = (1 - loss) K i_0   of the rated point,
-///   or of the stall point
+///   R = V / i_s                                  of the stall point, or
+///   R = V (w_0 - w_r) / (i_r w_0 - i_0 w_r)      of no load and the rated point
+///   K = (V - R i_0) / w_0
+///   (1 - loss) K = T / (i - i_0)                 of the rated point, or of the stall point
+///   T_m = (1 - loss) K i_0
 ///
 /// In SI units the torque constant is the voltage constant (power is conserved); stall torque / stall current
 /// is neither: it lacks what the gear loses. Both lines, current and torque over speed, have two points, so
 /// that no sheet tells viscous friction from the loss of the gear: all friction at no load is Coulomb
 /// friction. Requires positive voltage, speed and currents, and a stall or rated point or both stated
 /// constants.
+// clang-format on
 [[nodiscard]] inline SheetMotor motor_of(const MotorSheet& sheet) {
   const double w0 = sheet.no_load_speed_rad_s, i0 = sheet.no_load_current_A, V = sheet.nominal_voltage_V;
   const double n = sheet.gear_ratio, to_motor = sheet.at_output ? n : 1.0,

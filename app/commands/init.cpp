@@ -89,6 +89,12 @@ class Init : public Command {
 
   int run() override {
     if (!from_.empty()) return write_draft();
+    if (!wheels_.empty())
+      throw ConfigError({{"--wheels", 0, 0},
+                         "",
+                         "a value without --from",
+                         "a value only together with --from",
+                         "the wheels are joints of the file that --from names"});
     std::vector<std::string> names{"robot.yaml", "map.yaml", "map.pgm", "mission.yaml", "dataset.yaml"};
     for (int i = 0; i < kRuns; ++i) names.push_back(run_name(i));
     OutputDirectory out(directory_, names, options_.force);

@@ -78,9 +78,19 @@ std::string immutable_uri(const std::string& file) {
   return uri + "?immutable=1";
 }
 
+/// A rollback journal holds what a recorder had not finished: the file alone may be half of a transaction.
+void refuse_journal(const std::string& file, const NamedBy& named_by) {
+  std::error_code none;
+  const std::string journal = file + "-journal";
+  if (const auto bytes = std::filesystem::file_size(journal, none); !none && bytes > 0)
+    throw named_by.error(file, "an unfinished transaction in " + journal, "a bag that its recorder closed",
+                         "sqlite3 " + file + " \"PRAGMA user_version\" finishes it");
+}
+
 /// Nothing is written beside a bag, so that read-only media work: without a write-ahead log the file is
 /// immutable; with one, its index is kept in memory and it stays when the bag is closed.
 Database opened(const std::string& file, const NamedBy& named_by) {
+  refuse_journal(file, named_by);
   std::error_code none;
   const auto log_bytes = std::filesystem::file_size(file + "-wal", none);
   const bool has_log = !none && log_bytes > 0;

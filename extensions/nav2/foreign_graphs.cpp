@@ -22,8 +22,16 @@ bool has_list(const Node& node, std::string_view key) {
 
 double coordinate_in_m(const Node& node, double unit_m = 1.0) {
   const double value_m = unit_m * node.number();
-  if (std::abs(value_m) > kFarthest_m) node.fail("at most 1e6 m from the origin");
+  if (!(std::abs(value_m) <= kFarthest_m)) node.fail("at most 1e6 m from the origin");
   return value_m;
+}
+
+/// 0 is no limit.
+std::optional<double> speed_limit_in_m_s(const Node& node) {
+  const double limit_m_s = node.number();
+  if (limit_m_s == 0) return std::nullopt;
+  if (!(limit_m_s >= 1e-3 && limit_m_s <= 100)) node.fail("0 (no limit) or from 0.001 to 100 m/s");
+  return limit_m_s;
 }
 
 /// LIF of VDMA: layouts with nodes and edges, named by texts.
@@ -37,10 +45,9 @@ ForeignGraph read_lif(const Node& root) {
                                "a robot's map is one floor: leave the others out");
   std::map<std::string, std::size_t> index_of;
   for (const Node& node : drawn.front()["nodes"].items()) {
-    const Node position = node["nodePosition"];
-    if (!index_of.emplace(node["nodeId"].text(), graph.nodes.size()).second)
-      node["nodeId"].fail("an id that no other node has");
-    graph.nodes.push_back({node["nodeId"].text(), coordinate_in_m(position["x"]), coordinate_in_m(position["y"])});
+    const Node id = node["nodeId"], position = node["nodePosition"];
+    if (!index_of.emplace(id.text(), graph.nodes.size()).second) id.fail("an id that no other node has");
+    graph.nodes.push_back({id.text(), coordinate_in_m(position["x"]), coordinate_in_m(position["y"])});
   }
   const auto index = [&](const Node& id) {
     const auto found = index_of.find(id.text());
@@ -53,8 +60,9 @@ ForeignGraph read_lif(const Node& root) {
       ForeignGraph::Edge made{edge["edgeId"].text(), index(edge["startNodeId"]), index(edge["endNodeId"])};
       if (has_list(edge, "vehicleTypeEdgeProperties"))
         for (const Node& vehicle : edge["vehicleTypeEdgeProperties"].items()) {
-          if (const auto speed = vehicle.optional_number("maxSpeed"); speed && *speed > 0)
-            made.speed_limit_m_s = std::min(*speed, made.speed_limit_m_s.value_or(*speed));
+          const auto stated = vehicle.find("maxSpeed");
+          if (const auto speed_m_s = stated ? speed_limit_in_m_s(*stated) : std::nullopt)
+            made.speed_limit_m_s = std::min(*speed_m_s, made.speed_limit_m_s.value_or(*speed_m_s));
           if (vehicle.has("trajectory")) ++bent;
         }
       graph.edges.push_back(std::move(made));
@@ -75,6 +83,14 @@ std::optional<Node> rmf_parameter(const Node& item, std::size_t at, std::string_
   const std::vector<Node> typed = found->items();
   if (typed.size() != 2) found->fail("[type, value]");
   return typed[1];
+}
+
+/// The vertices of a level: at least [x, y].
+std::vector<Node> vertices_of(const Node& level) {
+  std::vector<Node> vertices = level["vertices"].items();
+  for (const Node& vertex : vertices)
+    if (vertex.items().size() < 2) vertex.fail("[x, y, ...]");
+  return vertices;
 }
 
 /// Meters per pixel of a level's drawing, by its measurements.
@@ -115,7 +131,7 @@ ForeignGraph read_rmf(const Node& root) {
                                   text_of_list(drawn, [](const auto& level) { return level.first; }),
                               "one", "a robot's map is one level: leave the others out");
   const Node& level = drawn.front().second;
-  const std::vector<Node> vertices = level["vertices"].items();
+  const std::vector<Node> vertices = vertices_of(level);
   const std::string system = root.text_or("coordinate_system", "reference_image");
   if (system == "wgs84")
     root["coordinate_system"].fail("reference_image or cartesian_meters",
@@ -123,9 +139,8 @@ ForeignGraph read_rmf(const Node& root) {
   const bool is_building = !vertices.empty() && vertices.front().items().size() > 3;
   const bool in_pixels = is_building && system != "cartesian_meters";
   const double unit_m = in_pixels ? scale_of(level, vertices) : 1.0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::vector<Node> parts = vertices[i].items();
-    if (parts.size() < 2) vertices[i].fail("[x, y, ...]");
+  for (const Node& vertex : vertices) {
+    const std::vector<Node> parts = vertex.items();
     std::string name;
     if (is_building && parts.size() > 3) name = parts[3].text();
     if (!is_building && parts.size() > 2 && parts[2].kind() == Value::Kind::map)
@@ -143,9 +158,10 @@ ForeignGraph read_rmf(const Node& root) {
       return static_cast<std::size_t>(i);
     };
     ForeignGraph::Edge edge{"", end(parts[0]), end(parts[1])};
-    if (const auto speed = rmf_parameter(lane, 2, "speed_limit"); speed && speed->number() > 0)
-      edge.speed_limit_m_s = speed->number();
-    if (const auto number = rmf_parameter(lane, 2, "graph_idx")) graphs.insert(number->text());
+    if (const auto speed = rmf_parameter(lane, 2, "speed_limit"))
+      edge.speed_limit_m_s = speed_limit_in_m_s(*speed);
+    const auto number = rmf_parameter(lane, 2, "graph_idx");
+    graphs.insert(number ? number->text() : "0");
     graph.edges.push_back(edge);
     const auto both = rmf_parameter(lane, 2, is_building ? "bidirectional" : "is_bidirectional");
     if (!both || !both->boolean()) continue;

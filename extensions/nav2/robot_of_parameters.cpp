@@ -49,24 +49,39 @@ void state_limits(const std::string& file, RobotDraft& draft) {
   }
 }
 
-/// A footprint is a text that holds a list of corners.
-void state_footprint_of(const Node& root, RobotDraft& draft) {
-  if (const auto text = parameter_named(root, "footprint");
-      text && text->text().find('[') != std::string::npos) {
-    std::vector<std::string> corners;
-    const Document list = Document::parse(text->text(), text->mark().file, text->mark().line);
-    for (const Node& corner : list.root().items()) {
-      const std::vector<Node> xy = corner.items();
-      if (xy.size() != 2) text->fail("[[x, y], ...]");
-      corners.push_back("[" + significant_text(xy[0].number()) + ", " + significant_text(xy[1].number()) +
-                        "]");
-    }
+/// The corners of a footprint, which is a text that holds a list. Fewer than three are no footprint.
+std::vector<std::string> corners_of(const Node& text) {
+  std::vector<std::string> corners;
+  if (text.text().find('[') == std::string::npos) return corners;
+  const Document list = Document::parse(text.text(), text.mark().file, text.mark().line);
+  for (const Node& corner : list.root().items()) {
+    const std::vector<Node> xy = corner.items();
+    if (xy.size() != 2) text.fail("[[x, y], ...]");
+    corners.push_back("[" + significant_text(xy[0].number()) + ", " + significant_text(xy[1].number()) + "]");
+  }
+  return corners.size() < 3 ? std::vector<std::string>() : corners;
+}
+
+/// Of the first costmap that states one: its footprint, else its radius.
+bool state_footprint_of(const Node& node, RobotDraft& draft) {
+  if (node.kind() != Value::Kind::map) return false;
+  const auto scalar = [&](const char* key) {
+    const auto found = node.find(key);
+    return found && found->kind() == Value::Kind::scalar ? found : std::nullopt;
+  };
+  const auto text = scalar("footprint"), radius = scalar("robot_radius");
+  if (const auto corners = text ? corners_of(*text) : std::vector<std::string>(); !corners.empty()) {
     draft.values.push_back(
         {"footprint.polygon_m", "[" + text_of_list(corners) + "]",
          place_in_file(*text) + ", about the base frame: shift it to the middle of the axle"});
-  } else if (const auto radius = parameter_named(root, "robot_radius")) {
-    draft.state("footprint.radius_m", radius->number(), place_in_file(*radius));
+    return true;
   }
+  if (radius) {
+    draft.state("footprint.radius_m", radius->number(), place_in_file(*radius));
+    return true;
+  }
+  return std::ranges::any_of(node.entries(),
+                             [&](const auto& entry) { return state_footprint_of(entry.second, draft); });
 }
 
 }  // namespace

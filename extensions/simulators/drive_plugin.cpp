@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 
 #include "extensions/simulators/model_files.hpp"
 #include "model/text_of_list.hpp"

@@ -48,6 +48,18 @@ void add_shape(MechanismLink& link, const Eigen::Isometry3d& pose,
   link.shape_center_m = pose.translation();
 }
 
+void add_balls(MechanismLink& link, const Eigen::Isometry3d& pose,
+               const std::vector<Eigen::Vector3d>& centers_m, double radius_m) {
+  for (const Eigen::Vector3d& center : centers_m)
+    for (const Eigen::Vector3d& point : sphere_points(radius_m))
+      link.outline_m.push_back(pose * center + point);
+  add_shape(link, pose, {}, radius_m);
+}
+
+std::vector<Eigen::Vector3d> capsule_ends(double length_m) {
+  return {Eigen::Vector3d(0, 0, -0.5 * length_m), Eigen::Vector3d(0, 0, 0.5 * length_m)};
+}
+
 MechanismLink combined(const std::vector<const MechanismLink*>& links) {
   MechanismLink sum;
   for (const MechanismLink* link : links) {

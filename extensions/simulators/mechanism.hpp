@@ -54,7 +54,7 @@ struct Mechanism {
   std::vector<std::string> notes{};
 };
 
-/// The points of shapes in the frame of the shape, and the inertia of a body per unit of mass.
+/// The points of shapes, in the frame of the shape.
 [[nodiscard]] std::vector<Eigen::Vector3d> box_points(const Eigen::Vector3d& size_m);
 [[nodiscard]] std::vector<Eigen::Vector3d> cylinder_points(double radius_m, double length_m);
 [[nodiscard]] std::vector<Eigen::Vector3d> sphere_points(double radius_m);
@@ -62,6 +62,13 @@ struct Mechanism {
 /// Adds a collision shape to a link; a cylinder or a sphere gives the radius of a wheel.
 void add_shape(MechanismLink& link, const Eigen::Isometry3d& pose,
                const std::vector<Eigen::Vector3d>& points_m, std::optional<double> radius_m = {});
+
+/// A sphere, or the two ends of a capsule. Their outline is the same in every orientation.
+void add_balls(MechanismLink& link, const Eigen::Isometry3d& pose,
+               const std::vector<Eigen::Vector3d>& centers_m, double radius_m);
+
+/// The centers of a capsule's ends; `length_m` is that of its cylinder.
+[[nodiscard]] std::vector<Eigen::Vector3d> capsule_ends(double length_m);
 
 /// Several bodies as one.
 [[nodiscard]] MechanismLink combined(const std::vector<const MechanismLink*>& links);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -16,6 +17,7 @@ struct SolidShape {
   double volume_m3{};
   Eigen::Vector3d moments_m2{Eigen::Vector3d::Zero()};  ///< per kg
   std::vector<Eigen::Vector3d> points_m{};
+  std::vector<Eigen::Vector3d> balls_m{};  ///< centers of balls with `radius_m`
   std::optional<double> radius_m{};
   bool known{true};
 };
@@ -38,6 +40,13 @@ SolidShape ellipsoid_solid(const Eigen::Vector3d& half_m) {
   return solid;
 }
 
+SolidShape ball_solid(double radius_m) {
+  SolidShape solid = ellipsoid_solid(Eigen::Vector3d::Constant(radius_m));
+  solid.points_m.clear();
+  solid.balls_m = {Eigen::Vector3d::Zero()};
+  return solid;
+}
+
 /// A cylinder, or with `round` the capsule that adds a half sphere at each end.
 SolidShape round_solid(double r, double half_length_m, bool round) {
   const double h = 2 * half_length_m, barrel = std::numbers::pi * r * r * h;
@@ -49,17 +58,39 @@ SolidShape round_solid(double r, double half_length_m, bool round) {
   return {.volume_m3 = volume,
           .moments_m2 = volume > 0 ? Eigen::Vector3d(Eigen::Vector3d(across, across, along) / volume)
                                    : Eigen::Vector3d(Eigen::Vector3d::Zero()),
-          .points_m = cylinder_points(r, h + (round ? 2 * r : 0)),
+          .points_m = round ? std::vector<Eigen::Vector3d>() : cylinder_points(r, h),
+          .balls_m = round ? capsule_ends(h) : std::vector<Eigen::Vector3d>(),
           .radius_m = r};
+}
+
+/// A class of defaults: its sections, and the class that it is in.
+struct DefaultClass {
+  std::string above{};
+  std::vector<XmlElement> sections{};
+};
+
+/// An element of a body, with the frames around it.
+struct FramedElement {
+  XmlElement element;
+  Eigen::Isometry3d frame;  ///< in the body's frame
+  std::string inherited;    ///< childclass around it
+};
+
+constexpr const char* kOrientations[] = {"quat", "axisangle", "euler", "zaxis", "xyaxes"};
+
+Eigen::VectorXd numbers_in(const XmlElement& element, const std::string& text, std::size_t count) {
+  const std::vector<double> all = element.numbers(text, count);
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 class MjcfReader {
  public:
   explicit MjcfReader(const XmlElement& root) : root_(root) {
     mechanism_ = {.file = root.file(), .name = root.attribute("model").value_or("")};
-    if (const auto include = root.descendants("include"); !include.empty())
-      include.front().fail("an include", "one file",
-                           "mujoco's compile sample writes one: compile model.xml whole.xml");
+    for (const char* kind : {"include", "attach", "replicate", "composite"})
+      if (const auto found = root.descendants(kind); !found.empty())
+        found.front().fail("<" + std::string(kind) + ">", "bodies that the file itself states",
+                           "mujoco's compile sample writes one file: compile model.xml whole.xml");
     for (const XmlElement& compiler : root.children("compiler")) {
       if (compiler.attribute("angle") == "radian") angle_ = 1.0;
       if (const auto order = compiler.attribute("eulerseq")) euler_ = *order;
@@ -68,64 +99,104 @@ class MjcfReader {
         mechanism_.notes.push_back(compiler.place() +
                                    ": settotalmass is not applied: masses are those of the bodies");
     }
-    for (const XmlElement& element : root.children("default")) add_defaults(element, "main");
+    for (const XmlElement& element : root.children("default")) add_defaults(element, "main", "");
   }
 
   Mechanism read() {
-    const auto world = root_.find("worldbody");
-    if (!world) root_.fail("no <worldbody>", "a model with bodies");
-    for (const XmlElement& body : world->children("body"))
-      add_body(body, Eigen::Isometry3d::Identity(), "", "");
-    if (const auto actuators = root_.find("actuator"))
-      for (const XmlElement& actuator : actuators->children()) mark_drive(actuator);
+    const std::vector<XmlElement> worlds = root_.children("worldbody");
+    if (worlds.empty()) root_.fail("no <worldbody>", "a model with bodies");
+    for (const XmlElement& world : worlds)
+      for (const FramedElement& body : contents(world, "body", ""))
+        add_body(body.element, body.frame, "", body.inherited);
+    for (const XmlElement& actuators : root_.children("actuator"))
+      for (const XmlElement& actuator : actuators.children()) mark_drive(actuator);
     return std::move(mechanism_);
   }
 
  private:
-  void add_defaults(const XmlElement& element, const std::string& otherwise) {
-    defaults_.emplace(element.attribute("class").value_or(otherwise), element);
-    for (const XmlElement& below : element.children("default")) add_defaults(below, below.required("class"));
+  /// Sections of one class merge; the first one tells which class it is in.
+  void add_defaults(const XmlElement& element, const std::string& otherwise, const std::string& above) {
+    const std::string name = element.attribute("class").value_or(otherwise);
+    defaults_.try_emplace(name, DefaultClass{.above = above}).first->second.sections.push_back(element);
+    for (const XmlElement& below : element.children("default"))
+      add_defaults(below, below.required("class"), name);
   }
 
-  /// An attribute of an element, its own or that of its class; `inherited`: childclass of the bodies above.
+  /// The element, then the settings of its class and of the classes around that, as they count;
+  /// `inherited`: childclass of the bodies above.
+  std::vector<XmlElement> sources(const XmlElement& element, const std::string& inherited) const {
+    std::vector<XmlElement> all{element};
+    const std::string chosen = element.attribute("class").value_or(inherited.empty() ? "main" : inherited);
+    auto level = defaults_.find(chosen);
+    if (level == defaults_.end() && chosen != "main")
+      element.fail("class " + joulepath::quoted(chosen), "a class of <default>");
+    for (; level != defaults_.end(); level = defaults_.find(level->second.above))
+      for (auto section = level->second.sections.rbegin(); section != level->second.sections.rend();
+           ++section)
+        for (const XmlElement& settings : section->children(element.name().c_str())) all.push_back(settings);
+    return all;
+  }
+
+  /// An attribute of an element, its own or that of its class.
   std::optional<std::string> value(const XmlElement& element, const char* name,
                                    const std::string& inherited) const {
-    if (auto own = element.attribute(name)) return own;
-    const std::string chosen = element.attribute("class").value_or(inherited.empty() ? "main" : inherited);
-    const auto found = defaults_.find(chosen);
-    if (found == defaults_.end()) {
-      if (chosen != "main") element.fail("class " + joulepath::quoted(chosen), "a class of <default>");
-      return std::nullopt;
-    }
-    for (std::optional<XmlElement> level = found->second; level && level->name() == "default";
-         level = level->parent())
-      if (const auto settings = level->find(element.name().c_str()))
-        if (auto stated = settings->attribute(name)) return stated;
+    for (const XmlElement& source : sources(element, inherited))
+      if (auto stated = source.attribute(name)) return stated;
     return std::nullopt;
+  }
+
+  /// The children of a kind, those in frames too.
+  std::vector<FramedElement> contents(const XmlElement& body, const std::string& kind,
+                                      const std::string& inherited) const {
+    std::vector<FramedElement> all;
+    for (const XmlElement& child : body.children()) {
+      if (child.name() == kind) all.push_back({child, Eigen::Isometry3d::Identity(), inherited});
+      if (child.name() != "frame") continue;
+      const Eigen::Isometry3d frame = pose_of(child, "");
+      for (FramedElement& inside : contents(child, kind, child.attribute("childclass").value_or(inherited))) {
+        inside.frame = frame * inside.frame;
+        all.push_back(std::move(inside));
+      }
+    }
+    return all;
   }
 
   std::optional<Eigen::VectorXd> numbers(const XmlElement& element, const char* name,
                                          const std::string& inherited, std::size_t count = 0) const {
     const auto text = value(element, name, inherited);
     if (!text) return std::nullopt;
-    const std::vector<double> all = element.numbers(*text, count);
-    return Eigen::VectorXd(
-        Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
+    return numbers_in(element, *text, count);
   }
 
   Eigen::Isometry3d pose_of(const XmlElement& element, const std::string& inherited) const {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     if (const auto at = numbers(element, "pos", inherited, 3)) pose.translation() = *at;
-    if (const auto q = numbers(element, "quat", inherited, 4))
-      pose.linear() = Eigen::Quaterniond((*q)[0], (*q)[1], (*q)[2], (*q)[3]).normalized().toRotationMatrix();
-    if (const auto a = numbers(element, "axisangle", inherited, 4))
-      pose.linear() = Eigen::AngleAxisd(angle_ * (*a)[3], a->head<3>().normalized()).toRotationMatrix();
-    if (const auto e = numbers(element, "euler", inherited, 3)) pose.linear() = turned(element, *e);
-    if (const auto z = numbers(element, "zaxis", inherited, 3))
-      pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(*z))
-                          .toRotationMatrix();
-    if (element.attribute("xyaxes")) element.fail("xyaxes", "quat, axisangle, euler or zaxis");
+    for (const XmlElement& source : sources(element, inherited))
+      for (const char* kind : kOrientations)
+        if (const auto text = source.attribute(kind)) {
+          pose.linear() = orientation(source, kind, *text);
+          return pose;
+        }
     return pose;
+  }
+
+  Eigen::Matrix3d orientation(const XmlElement& source, const std::string& kind,
+                              const std::string& text) const {
+    const std::size_t count = kind == "xyaxes" ? 6 : kind == "quat" || kind == "axisangle" ? 4 : 3;
+    const Eigen::VectorXd v = numbers_in(source, text, count);
+    if (kind == "quat") return Eigen::Quaterniond(v[0], v[1], v[2], v[3]).normalized().toRotationMatrix();
+    if (kind == "axisangle")
+      return Eigen::AngleAxisd(angle_ * v[3], v.head<3>().normalized()).toRotationMatrix();
+    if (kind == "euler") return turned(source, v);
+    if (kind == "zaxis")
+      return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(v))
+          .toRotationMatrix();
+    Eigen::Matrix3d axes;
+    axes.col(0) = v.head<3>().normalized();
+    axes.col(1) = (v.tail<3>() - axes.col(0).dot(v.tail<3>()) * axes.col(0)).normalized();
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    if (!(std::abs(axes.determinant() - 1) < 1e-6)) source.fail("xyaxes along one line", "two directions");
+    return axes;
   }
 
   /// Lower case: about the turned axes; upper case: about the fixed ones.
@@ -161,7 +232,7 @@ class MjcfReader {
       pose = Eigen::Translation3d(0.5 * (from + to)) *
              Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(to - from));
     }
-    if (type == "sphere") return ellipsoid_solid(Eigen::Vector3d::Constant(at(0)));
+    if (type == "sphere") return ball_solid(at(0));
     if (type == "capsule" || type == "cylinder")
       return round_solid(at(0), ends ? half_length_m : at(1), type == "capsule");
     if (type == "box" || type == "ellipsoid") {
@@ -172,18 +243,12 @@ class MjcfReader {
     return {.known = false};
   }
 
-  void add_geom(const XmlElement& geom, const std::string& inherited, MechanismLink& link,
-                std::vector<MechanismLink>& parts) {
+  void add_geom(const FramedElement& framed, MechanismLink& link, std::vector<MechanismLink>& parts) {
+    const auto& [geom, frame, inherited] = framed;
     Eigen::Isometry3d pose = pose_of(geom, inherited);
     const SolidShape solid = solid_of(geom, inherited, pose);
-    pose = link.pose * pose;
-    const auto is_zero = [&](const char* name) { return value(geom, name, inherited).value_or("1") == "0"; };
-    if (!(is_zero("contype") && is_zero("conaffinity"))) {
-      if (solid.known)
-        add_shape(link, pose, solid.points_m, solid.radius_m);
-      else
-        link.has_mesh = true;
-    }
+    pose = link.pose * frame * pose;
+    add_outline(framed, solid, pose, link);
     const auto mass = numbers(geom, "mass", inherited, 1), density = numbers(geom, "density", inherited, 1);
     if (mass && (*mass)[0] == 0) return;
     if (density && (*density)[0] == 0 && !mass) return;
@@ -196,6 +261,20 @@ class MjcfReader {
     part.inertia_kg_m2 =
         part.mass_kg * (pose.rotation() * solid.moments_m2.asDiagonal() * pose.rotation().transpose());
     parts.push_back(std::move(part));
+  }
+
+  void add_outline(const FramedElement& geom, const SolidShape& solid, const Eigen::Isometry3d& pose,
+                   MechanismLink& link) const {
+    const auto is_zero = [&](const char* name) {
+      return value(geom.element, name, geom.inherited).value_or("1") == "0";
+    };
+    if (is_zero("contype") && is_zero("conaffinity")) return;
+    if (!solid.known)
+      link.has_mesh = true;
+    else if (solid.balls_m.empty())
+      add_shape(link, pose, solid.points_m, solid.radius_m);
+    else
+      add_balls(link, pose, solid.balls_m, *solid.radius_m);
   }
 
   void add_inertial(const XmlElement& inertial, const std::string& inherited, MechanismLink& link) const {
@@ -212,23 +291,26 @@ class MjcfReader {
 
   void add_joints(const XmlElement& body, const std::string& parent, const std::string& inherited,
                   const MechanismLink& link) {
-    const std::vector<XmlElement> joints = body.children("joint");
-    if (joints.empty() && !body.find("freejoint") && !parent.empty())
+    const std::vector<FramedElement> joints = contents(body, "joint", inherited);
+    if (joints.empty() && contents(body, "freejoint", "").empty() && !parent.empty())
       mechanism_.joints.push_back(
           {.name = link.name, .place = body.place(), .parent = parent, .child = link.name, .fixed = true});
-    for (const XmlElement& element : joints) {
+    for (const FramedElement& framed : joints) {
+      const XmlElement& element = framed.element;
+      const Eigen::Isometry3d frame = link.pose * framed.frame;
       const auto number = [&](const char* name) {
-        const auto stated = numbers(element, name, inherited);
+        const auto stated = numbers(element, name, framed.inherited);
         return stated && stated->size() > 0 ? (*stated)[0] : 0.0;
       };
-      const auto axis = numbers(element, "axis", inherited, 3), at = numbers(element, "pos", inherited, 3);
+      const auto axis = numbers(element, "axis", framed.inherited, 3),
+                 at = numbers(element, "pos", framed.inherited, 3);
       MechanismJoint joint{.name = element.attribute("name").value_or(link.name),
                            .place = element.place(),
                            .parent = parent,
                            .child = link.name,
-                           .turns = value(element, "type", inherited).value_or("hinge") == "hinge"};
-      joint.place_m = link.pose * (at ? Eigen::Vector3d(*at) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-      joint.axis = link.pose.rotation() *
+                           .turns = value(element, "type", framed.inherited).value_or("hinge") == "hinge"};
+      joint.place_m = frame * (at ? Eigen::Vector3d(*at) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+      joint.axis = frame.rotation() *
                    (axis ? Eigen::Vector3d(axis->normalized()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ()));
       joint.damping_Nm_s_rad = number("damping");
       joint.friction_Nm = number("frictionloss");
@@ -245,7 +327,7 @@ class MjcfReader {
                        .pose = above * pose_of(body, "")};
     std::vector<MechanismLink> parts;
     unknown_mass_.clear();
-    for (const XmlElement& geom : body.children("geom")) add_geom(geom, inherited, link, parts);
+    for (const FramedElement& geom : contents(body, "geom", inherited)) add_geom(geom, link, parts);
     const auto inertial = body.find("inertial");
     if (inertial && !always_from_geoms_) {
       add_inertial(*inertial, inherited, link);
@@ -265,7 +347,8 @@ class MjcfReader {
     const Eigen::Isometry3d pose = link.pose;
     const std::string name = link.name;
     mechanism_.links.push_back(std::move(link));
-    for (const XmlElement& below : body.children("body")) add_body(below, pose, name, inherited);
+    for (const FramedElement& below : contents(body, "body", inherited))
+      add_body(below.element, pose * below.frame, name, below.inherited);
   }
 
   /// A velocity actuator's range is a speed limit of its joint.
@@ -274,15 +357,22 @@ class MjcfReader {
     for (MechanismJoint& joint : mechanism_.joints) {
       if (joint.name != name) continue;
       joint.is_driven = true;
-      if (actuator.name() != "velocity") continue;
-      const auto range = numbers(actuator, "ctrlrange", "", 2), gear = numbers(actuator, "gear", "");
-      if (range) joint.speed_rad_s = (*range)[1] / (gear && (*gear)[0] > 0 ? (*gear)[0] : 1.0);
+      if (actuator.name() == "velocity") joint.speed_rad_s = stated_speed_rad_s(speed_of(actuator));
     }
+  }
+
+  /// The control is the speed of the transmission: gear times that of the joint, of either sign.
+  std::optional<double> speed_of(const XmlElement& actuator) const {
+    const auto range = numbers(actuator, "ctrlrange", "", 2), gear = numbers(actuator, "gear", "");
+    if (gear && (gear->size() == 0 || (*gear)[0] == 0))
+      actuator.fail("a gear without a number or of 0", "one number or more, the first not 0");
+    if (!range || value(actuator, "ctrllimited", "") == "false") return std::nullopt;
+    return range->cwiseAbs().maxCoeff() / (gear ? std::abs((*gear)[0]) : 1.0);
   }
 
   XmlElement root_;
   Mechanism mechanism_{};
-  std::map<std::string, XmlElement> defaults_{};
+  std::map<std::string, DefaultClass> defaults_{};
   double angle_{std::numbers::pi / 180};
   std::string euler_{"xyz"};
   bool always_from_geoms_{};

@@ -14,7 +14,7 @@ constexpr double kMostAxleShare = 1.9;  ///< moments of inertia of a body obey A
 constexpr double kTireFriction = 0.9;   ///< where the robot file has no traction_coefficient
 constexpr double kCasterSize = 0.3;     ///< of the wheel's radius
 
-std::string n(double value) { return number_text(value); }
+std::string number(double value) { return number_text(value); }
 
 /// `<name>value</name>`.
 std::string tag(const std::string& name, const std::string& value) {
@@ -79,42 +79,42 @@ std::string mjcf_text(const ExportedRobot& robot) {
   for (const ExportedWheel& wheel : robot.wheels) {
     const std::string name = wheel.side;
     const double K = wheel.motor.torque_per_ampere_Nm_A(), Kv = wheel.motor.volts_per_speed_V_s_rad();
-    wheels += "      <body name=\"" + name + "_wheel\" pos=\"0 " + n(wheel.y_m) + " " + n(wheel.z_m) +
-              "\">\n" + "        <joint name=\"" + name + "\" type=\"hinge\" axis=\"0 1 0\" damping=\"" +
-              n(wheel.motor.viscous_friction_Nm_s_rad) + "\" frictionloss=\"" +
-              n(wheel.motor.friction_torque_Nm) + "\" armature=\"" + n(robot.rotor_kg_m2) +
-              "\" solreffriction=\"0.005 1\"/>\n" + "        <inertial pos=\"0 0 0\" mass=\"" +
-              n(robot.wheel_kg) + "\" diaginertia=\"" + n(robot.across_kg_m2) + " " +
-              n(robot.body_axle_kg_m2) + " " + n(robot.across_kg_m2) + "\"/>\n" +
-              "        <geom type=\"ellipsoid\" size=\"" + n(wheel.radius_m) + " " + n(0.3 * wheel.radius_m) +
-              " " + n(wheel.radius_m) +
+    wheels += "      <body name=\"" + name + "_wheel\" pos=\"0 " + number(wheel.y_m) + " " +
+              number(wheel.z_m) + "\">\n" + "        <joint name=\"" + name +
+              "\" type=\"hinge\" axis=\"0 1 0\" damping=\"" + number(wheel.motor.viscous_friction_Nm_s_rad) +
+              "\" frictionloss=\"" + number(wheel.motor.friction_torque_Nm) + "\" armature=\"" +
+              number(robot.rotor_kg_m2) + "\" solreffriction=\"0.005 1\"/>\n" +
+              "        <inertial pos=\"0 0 0\" mass=\"" + number(robot.wheel_kg) + "\" diaginertia=\"" +
+              number(robot.across_kg_m2) + " " + number(robot.body_axle_kg_m2) + " " +
+              number(robot.across_kg_m2) + "\"/>\n" + "        <geom type=\"ellipsoid\" size=\"" +
+              number(wheel.radius_m) + " " + number(0.3 * wheel.radius_m) + " " + number(wheel.radius_m) +
               "\" contype=\"0\" conaffinity=\"1\" priority=\"2\" solref=\"0.006 1\" friction=\"" +
-              n(robot.friction) + " 1e-5 1e-5\"/>\n      </body>\n";
+              number(robot.friction) + " 1e-5 1e-5\"/>\n      </body>\n";
     std::string range;
     if (std::isfinite(wheel.motor.max_voltage_V))
-      range = " ctrllimited=\"true\" ctrlrange=\"" + n(-wheel.motor.max_voltage_V) + " " +
-              n(wheel.motor.max_voltage_V) + "\"";
+      range = " ctrllimited=\"true\" ctrlrange=\"" + number(-wheel.motor.max_voltage_V) + " " +
+              number(wheel.motor.max_voltage_V) + "\"";
     motors += "    <general name=\"" + name + "_V\" joint=\"" + name + "\" gaintype=\"fixed\" gainprm=\"" +
-              n(K / wheel.motor.resistance_ohm) + "\" biastype=\"affine\" biasprm=\"0 0 " +
-              n(-K * Kv / wheel.motor.resistance_ohm) + "\"" + range + "/>\n";
+              number(K / wheel.motor.resistance_ohm) + "\" biastype=\"affine\" biasprm=\"0 0 " +
+              number(-K * Kv / wheel.motor.resistance_ohm) + "\"" + range + "/>\n";
   }
   for (const double x_m : {robot.caster_m, -robot.caster_m})
-    casters += "      <geom type=\"sphere\" size=\"" + n(robot.caster_radius_m) + "\" pos=\"" + n(x_m) +
-               " 0 " + n(robot.caster_radius_m + kCasterGap_m - robot.radius_m) +
+    casters += "      <geom type=\"sphere\" size=\"" + number(robot.caster_radius_m) + "\" pos=\"" +
+               number(x_m) + " 0 " + number(robot.caster_radius_m + kCasterGap_m - robot.radius_m) +
                "\" contype=\"0\" conaffinity=\"1\" priority=\"1\" condim=\"1\" solref=\"0.006 1\"/>\n";
   return "<mujoco model=\"" + robot.name +
          "\">\n  <!-- Controls are voltages of the motors (V). -->\n"
          "  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
          "  <option timestep=\"0.002\" integrator=\"implicitfast\" cone=\"elliptic\" impratio=\"100\" "
          "gravity=\"0 0 " +
-         n(-kGravity_m_s2) + "\"/>\n" +
+         number(-kGravity_m_s2) + "\"/>\n" +
          "  <worldbody>\n    <geom name=\"floor\" type=\"plane\" size=\"500 500 1\" contype=\"1\" "
          "conaffinity=\"0\"/>\n" +
-         "    <body name=\"base_link\" pos=\"0 0 " + n(robot.radius_m) + "\">\n      <freejoint/>\n" +
-         "      <inertial pos=\"" + n(robot.center_m) + " 0 0\" mass=\"" + n(robot.mass_kg) +
-         "\" diaginertia=\"" + n(robot.yaw_kg_m2) + " " + n(robot.yaw_kg_m2) + " " + n(robot.yaw_kg_m2) +
-         "\"/>\n" + casters + wheels + "    </body>\n  </worldbody>\n  <actuator>\n" + motors +
-         "  </actuator>\n</mujoco>\n";
+         "    <body name=\"base_link\" pos=\"0 0 " + number(robot.radius_m) + "\">\n      <freejoint/>\n" +
+         "      <inertial pos=\"" + number(robot.center_m) + " 0 0\" mass=\"" + number(robot.mass_kg) +
+         "\" diaginertia=\"" + number(robot.yaw_kg_m2) + " " + number(robot.yaw_kg_m2) + " " +
+         number(robot.yaw_kg_m2) + "\"/>\n" + casters + wheels +
+         "    </body>\n  </worldbody>\n  <actuator>\n" + motors + "  </actuator>\n</mujoco>\n";
 }
 
 /// The drive plugin of Gazebo, the same text in a URDF and in an SDF.
@@ -122,9 +122,10 @@ std::string plugin_text(const ExportedRobot& robot) {
   std::string text =
       "    <plugin filename=\"gz-sim-diff-drive-system\" name=\"gz::sim::systems::DiffDrive\">\n      " +
       tag("left_joint", "left") + tag("right_joint", "right") +
-      tag("wheel_separation", n(2 * robot.half_track_m)) + tag("wheel_radius", n(robot.radius_m)) + "\n";
+      tag("wheel_separation", number(2 * robot.half_track_m)) + tag("wheel_radius", number(robot.radius_m)) +
+      "\n";
   const auto limit = [&](const char* name, double value) {
-    if (std::isfinite(value)) text += "      " + tag(name, n(value)) + "\n";
+    if (std::isfinite(value)) text += "      " + tag(name, number(value)) + "\n";
   };
   limit("max_linear_velocity", robot.limits.speed_m_s);
   limit("min_linear_velocity", -robot.limits.reverse_speed_m_s);
@@ -136,70 +137,73 @@ std::string plugin_text(const ExportedRobot& robot) {
 }
 
 std::string urdf_inertial(const std::string& at, double mass_kg, double ixx, double iyy, double izz) {
-  return "    <inertial><origin xyz=\"" + at + "\"/><mass value=\"" + n(mass_kg) + "\"/><inertia ixx=\"" +
-         n(ixx) + "\" iyy=\"" + n(iyy) + "\" izz=\"" + n(izz) +
+  return "    <inertial><origin xyz=\"" + at + "\"/><mass value=\"" + number(mass_kg) +
+         "\"/><inertia ixx=\"" + number(ixx) + "\" iyy=\"" + number(iyy) + "\" izz=\"" + number(izz) +
          "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>\n";
 }
 
 std::string urdf_text(const ExportedRobot& robot) {
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + robot.name +
                      "\">\n  <link name=\"base_link\">\n" +
-                     urdf_inertial(n(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
+                     urdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
                                    robot.yaw_kg_m2, robot.yaw_kg_m2);
   for (const double x_m : {robot.caster_m, -robot.caster_m})
-    text += "    <collision><origin xyz=\"" + n(x_m) + " 0 " +
-            n(robot.caster_radius_m + kCasterGap_m - robot.radius_m) + "\"/><geometry><sphere radius=\"" +
-            n(robot.caster_radius_m) + "\"/></geometry></collision>\n";
+    text += "    <collision><origin xyz=\"" + number(x_m) + " 0 " +
+            number(robot.caster_radius_m + kCasterGap_m - robot.radius_m) +
+            "\"/><geometry><sphere radius=\"" + number(robot.caster_radius_m) +
+            "\"/></geometry></collision>\n";
   text += "  </link>\n  <gazebo reference=\"base_link\"><mu1>0</mu1><mu2>0</mu2></gazebo>\n";
   for (const ExportedWheel& wheel : robot.wheels) {
     const std::string name = wheel.side;
     text += "  <joint name=\"" + name + "\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"" +
-            name + "_wheel\"/>\n    <origin xyz=\"0 " + n(wheel.y_m) + " " + n(wheel.z_m) +
-            "\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"" + n(wheel.motor.viscous_friction_Nm_s_rad) +
-            "\" friction=\"" + n(wheel.motor.friction_torque_Nm) + "\"/></joint>\n  <link name=\"" + name +
-            "_wheel\">\n" +
+            name + "_wheel\"/>\n    <origin xyz=\"0 " + number(wheel.y_m) + " " + number(wheel.z_m) +
+            "\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"" + number(wheel.motor.viscous_friction_Nm_s_rad) +
+            "\" friction=\"" + number(wheel.motor.friction_torque_Nm) + "\"/></joint>\n  <link name=\"" +
+            name + "_wheel\">\n" +
             urdf_inertial("0 0 0", robot.wheel_kg, robot.across_kg_m2, robot.body_axle_kg_m2,
                           robot.across_kg_m2) +
-            "    <collision><geometry><sphere radius=\"" + n(wheel.radius_m) +
+            "    <collision><geometry><sphere radius=\"" + number(wheel.radius_m) +
             "\"/></geometry></collision>\n  </link>\n" + "  <gazebo reference=\"" + name + "_wheel\">" +
-            tag("mu1", n(robot.friction)) + tag("mu2", n(robot.friction)) + "</gazebo>\n";
+            tag("mu1", number(robot.friction)) + tag("mu2", number(robot.friction)) + "</gazebo>\n";
   }
   return text + "  <gazebo>\n" + plugin_text(robot) + "  </gazebo>\n</robot>\n";
 }
 
 std::string sdf_inertial(const std::string& at, double mass_kg, double ixx, double iyy, double izz) {
-  return "      <inertial><pose>" + at + " 0 0 0</pose>" + tag("mass", n(mass_kg)) + "<inertia>" +
-         tag("ixx", n(ixx)) + tag("iyy", n(iyy)) + tag("izz", n(izz)) + "</inertia></inertial>\n";
+  return "      <inertial><pose>" + at + " 0 0 0</pose>" + tag("mass", number(mass_kg)) + "<inertia>" +
+         tag("ixx", number(ixx)) + tag("iyy", number(iyy)) + tag("izz", number(izz)) +
+         "</inertia></inertial>\n";
 }
 
 std::string sdf_sphere(const std::string& name, const std::string& at, double radius_m, double friction) {
   return "      <collision name=\"" + name + "\"><pose>" + at + " 0 0 0</pose><geometry><sphere>" +
-         tag("radius", n(radius_m)) + "</sphere></geometry>\n        <surface><friction><ode>" +
-         tag("mu", n(friction)) + tag("mu2", n(friction)) + "</ode></friction></surface></collision>\n";
+         tag("radius", number(radius_m)) + "</sphere></geometry>\n        <surface><friction><ode>" +
+         tag("mu", number(friction)) + tag("mu2", number(friction)) +
+         "</ode></friction></surface></collision>\n";
 }
 
 std::string sdf_text(const ExportedRobot& robot) {
   std::string text = "<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n  <model name=\"" + robot.name +
-                     "\">\n    <pose>0 0 " + n(robot.radius_m) +
+                     "\">\n    <pose>0 0 " + number(robot.radius_m) +
                      " 0 0 0</pose>\n    <link name=\"base_link\">\n" +
-                     sdf_inertial(n(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2, robot.yaw_kg_m2,
-                                  robot.yaw_kg_m2);
+                     sdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
+                                  robot.yaw_kg_m2, robot.yaw_kg_m2);
   for (const double x_m : {robot.caster_m, -robot.caster_m})
     text += sdf_sphere(x_m > 0 ? "front" : "back",
-                       n(x_m) + " 0 " + n(robot.caster_radius_m + kCasterGap_m - robot.radius_m),
+                       number(x_m) + " 0 " + number(robot.caster_radius_m + kCasterGap_m - robot.radius_m),
                        robot.caster_radius_m, 0.0);
   text += "    </link>\n";
   for (const ExportedWheel& wheel : robot.wheels) {
     const std::string name = wheel.side;
     text +=
-        "    <link name=\"" + name + "_wheel\">\n      <pose>0 " + n(wheel.y_m) + " " + n(wheel.z_m) +
-        " 0 0 0</pose>\n" +
+        "    <link name=\"" + name + "_wheel\">\n      <pose>0 " + number(wheel.y_m) + " " +
+        number(wheel.z_m) + " 0 0 0</pose>\n" +
         sdf_inertial("0 0 0", robot.wheel_kg, robot.across_kg_m2, robot.body_axle_kg_m2, robot.across_kg_m2) +
         sdf_sphere("tire", "0 0 0", wheel.radius_m, robot.friction) + "    </link>\n    <joint name=\"" +
         name + "\" type=\"revolute\"><parent>base_link</parent><child>" + name +
         "_wheel</child>\n      <axis><xyz>0 1 0</xyz><dynamics>" +
-        tag("damping", n(wheel.motor.viscous_friction_Nm_s_rad)) +
-        tag("friction", n(wheel.motor.friction_torque_Nm)) + "</dynamics></axis>\n    </joint>\n";
+        tag("damping", number(wheel.motor.viscous_friction_Nm_s_rad)) +
+        tag("friction", number(wheel.motor.friction_torque_Nm)) + "</dynamics></axis>\n    </joint>\n";
   }
   return text + plugin_text(robot) + "  </model>\n</sdf>\n";
 }
@@ -216,7 +220,7 @@ ModelExport model_export(const Robot& robot, double payload_kg, const std::strin
   if (format == "mjcf") return result;
   result.lost.push_back("motors: resistance, constants and gear; the drive plugin holds its speeds exactly");
   if (out.rotor_kg_m2 > 0)
-    result.lost.push_back(n(out.rotor_kg_m2) +
+    result.lost.push_back(number(out.rotor_kg_m2) +
                           " kg m2 of wheel_axle_inertia_kg_m2: no rigid wheel has more than twice "
                           "its inertia about a diameter, the rest is the rotor's");
   return result;

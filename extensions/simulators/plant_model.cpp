@@ -20,7 +20,9 @@ double coordinate_m(const XmlElement& point, const char* name, const char* old_n
 }  // namespace
 
 bool is_plant_model(const std::string& file) {
-  return is_xml(file) && XmlFile(file).root().name() == "model";
+  if (!is_xml(file)) return false;
+  const XmlFile xml(file);
+  return xml.root().name() == "model" && xml.root().find("point");
 }
 
 ForeignGraph read_plant_model(const std::string& file) {

@@ -39,22 +39,34 @@ class SdfFrames {
     if (element.name() == "joint" && element.find("child")) base = element.find("child")->text();
     if (element.name() == "frame") base = element.attribute("attached_to").value_or("");
     if (const auto pose = element.find("pose")) base = pose->attribute("relative_to").value_or(base);
-    if (base.empty() || base == "__model__") return sdf_pose(element);
-    const auto found = named_.find(base);
+    return pose_named(base, element, depth) * sdf_pose(element);
+  }
+
+  /// A frame that `element` names; none and __model__: the model's.
+  Eigen::Isometry3d pose_named(const std::string& name, const XmlElement& element, int depth = 0) const {
+    if (name.empty() || name == "__model__") return Eigen::Isometry3d::Identity();
+    const auto found = named_.find(name);
     if (found == named_.end())
-      element.fail("the frame " + joulepath::quoted(base), "a link, joint or frame of the same model");
-    return pose_of(found->second, depth + 1) * sdf_pose(element);
+      element.fail("the frame " + joulepath::quoted(name), "a link, joint or frame of the same model");
+    return pose_of(found->second, depth + 1);
+  }
+
+  /// The pose of a part of a link: in the link's frame, or relative to a named one.
+  Eigen::Isometry3d pose_in(const MechanismLink& link, const XmlElement& part) const {
+    const auto pose = part.find("pose");
+    const auto base = pose ? pose->attribute("relative_to") : std::nullopt;
+    return (base ? pose_named(*base, part) : link.pose) * sdf_pose(part);
   }
 
  private:
   std::map<std::string, XmlElement> named_{};
 };
 
-void add_sdf_mass(const XmlElement& element, MechanismLink& link) {
+void add_sdf_mass(const XmlElement& element, const SdfFrames& frames, MechanismLink& link) {
   const auto inertial = element.find("inertial");
   const auto mass = inertial ? inertial->number_in("mass") : std::nullopt;
   if (!mass) return;
-  const Eigen::Isometry3d pose = link.pose * sdf_pose(*inertial);
+  const Eigen::Isometry3d pose = frames.pose_in(link, *inertial);
   Eigen::Matrix3d own = Eigen::Matrix3d::Identity();  // the format's default
   if (const auto inertia = inertial->find("inertia")) {
     const auto moment = [&](const char* name, double otherwise) {
@@ -69,33 +81,37 @@ void add_sdf_mass(const XmlElement& element, MechanismLink& link) {
   link.inertia_kg_m2 = pose.rotation() * own * pose.rotation().transpose();
 }
 
-void add_sdf_shapes(const XmlElement& element, MechanismLink& link) {
+void add_sdf_shapes(const XmlElement& element, const SdfFrames& frames, MechanismLink& link) {
   for (const XmlElement& collision : element.children("collision")) {
     const auto geometry = collision.find("geometry");
     if (!geometry) continue;
-    const Eigen::Isometry3d pose = link.pose * sdf_pose(collision);
-    const auto size = [](const XmlElement& shape, const char* name) {
-      const auto value = shape.number_in(name);
-      if (!value) shape.fail("no <" + std::string(name) + ">", "a size in metres");
-      return *value;
-    };
+    const Eigen::Isometry3d pose = frames.pose_in(link, collision);
     for (const XmlElement& shape : geometry->children())
-      if (shape.name() == "box") {
-        const auto sides = shape.find("size");
-        if (!sides) shape.fail("no <size>", "x y z in metres");
-        add_shape(link, pose, box_points(sides->vector(sides->text())));
-      } else if (shape.name() == "cylinder" || shape.name() == "capsule") {
-        add_shape(link, pose, cylinder_points(size(shape, "radius"), size(shape, "length")),
-                  size(shape, "radius"));
-      } else if (shape.name() == "sphere") {
-        add_shape(link, pose, sphere_points(size(shape, "radius")), size(shape, "radius"));
-      } else {
-        link.has_mesh = true;
-      }
+      add_primitive(link, pose, shape, [&](const char* name, std::size_t count) {
+        const auto value = shape.find(name);
+        if (!value) shape.fail("no <" + std::string(name) + ">", "a size in metres");
+        return value->numbers(value->text(), count);
+      });
   }
 }
 
-MechanismJoint sdf_joint(const XmlElement& element, const SdfFrames& frames) {
+/// Until version 1.4 axes are in the model's frame, later in the joint's unless they say otherwise.
+bool has_axes_in_model(const XmlElement& root) {
+  const std::string version = root.attribute("version").value_or("");
+  return version.size() == 3 && version.starts_with("1.") && version[2] < '5';
+}
+
+/// The rotation of the frame in which an axis is stated.
+Eigen::Matrix3d frame_of_axis(const XmlElement& axis, const XmlElement& xyz, const SdfFrames& frames,
+                              const Eigen::Isometry3d& joint, bool axes_in_model) {
+  if (const auto named = xyz.attribute("expressed_in"); named && !named->empty())
+    return frames.pose_named(*named, xyz).rotation();
+  const auto stated = axis.find("use_parent_model_frame");
+  const bool in_model = stated ? is_true(stated->text()) : axes_in_model;
+  return in_model ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(joint.rotation());
+}
+
+MechanismJoint sdf_joint(const XmlElement& element, const SdfFrames& frames, bool axes_in_model) {
   const auto type = element.required("type");
   const auto parent = element.find("parent"), child = element.find("child"), axis = element.find("axis");
   if (!parent || !child) element.fail("no parent or no child", "<parent> and <child>");
@@ -108,20 +124,15 @@ MechanismJoint sdf_joint(const XmlElement& element, const SdfFrames& frames) {
   const Eigen::Isometry3d pose = frames.pose_of(element);
   joint.place_m = pose.translation();
   if (!axis) return joint;
-  if (const auto xyz = axis->find("xyz")) {
-    const bool in_model =
-        xyz->attribute("expressed_in") == "__model__" ||
-        (axis->find("use_parent_model_frame") && is_true(axis->find("use_parent_model_frame")->text()));
-    const Eigen::Vector3d direction = xyz->vector(xyz->text()).normalized();
-    joint.axis = in_model ? direction : Eigen::Vector3d(pose.rotation() * direction);
-  }
+  if (const auto xyz = axis->find("xyz"))
+    joint.axis =
+        frame_of_axis(*axis, *xyz, frames, pose, axes_in_model) * xyz->vector(xyz->text()).normalized();
   if (const auto dynamics = axis->find("dynamics")) {
     joint.damping_Nm_s_rad = dynamics->number_in("damping").value_or(0);
     joint.friction_Nm = dynamics->number_in("friction").value_or(0);
   }
   if (const auto limit = axis->find("limit"))
-    if (const auto speed = limit->number_in("velocity"); speed && *speed > 0 && *speed < 1e6)
-      joint.speed_rad_s = speed;
+    joint.speed_rad_s = stated_speed_rad_s(limit->number_in("velocity"));
   return joint;
 }
 
@@ -142,18 +153,19 @@ Mechanism read_sdf(const XmlElement& root) {
               "gz sdf -p FILE writes includes and nested models into one file");
   const XmlElement& model = models.front();
   Mechanism mechanism{.file = root.file(), .name = model.attribute("name").value_or("")};
-  for (const XmlElement& include : model.children("include"))
-    mechanism.notes.push_back(include.place() + ": <include> is not read: its masses are missing");
+  for (const char* kind : {"include", "model"})
+    for (const XmlElement& inside : model.children(kind))
+      mechanism.notes.push_back(inside.place() + ": <" + kind + "> is not read: its masses are missing");
   const SdfFrames frames(model);
   for (const XmlElement& element : model.children("link")) {
     MechanismLink link{
         .name = element.required("name"), .place = element.place(), .pose = frames.pose_of(element)};
-    add_sdf_mass(element, link);
-    add_sdf_shapes(element, link);
+    add_sdf_mass(element, frames, link);
+    add_sdf_shapes(element, frames, link);
     mechanism.links.push_back(std::move(link));
   }
   for (const XmlElement& element : model.children("joint"))
-    mechanism.joints.push_back(sdf_joint(element, frames));
+    mechanism.joints.push_back(sdf_joint(element, frames, has_axes_in_model(root)));
   read_drive_plugins(model, mechanism);
   return mechanism;
 }

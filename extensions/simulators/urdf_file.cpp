@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -37,19 +38,10 @@ void add_urdf_shapes(const XmlElement& element, MechanismLink& link) {
     const auto geometry = collision.find("geometry");
     if (!geometry) continue;
     const Eigen::Isometry3d pose = link.pose * urdf_origin(collision);
-    const auto size = [](const XmlElement& shape, const char* name) {
-      return shape.number(shape.required(name));
-    };
     for (const XmlElement& shape : geometry->children())
-      if (shape.name() == "box")
-        add_shape(link, pose, box_points(shape.vector(shape.required("size"))));
-      else if (shape.name() == "cylinder" || shape.name() == "capsule")
-        add_shape(link, pose, cylinder_points(size(shape, "radius"), size(shape, "length")),
-                  size(shape, "radius"));
-      else if (shape.name() == "sphere")
-        add_shape(link, pose, sphere_points(size(shape, "radius")), size(shape, "radius"));
-      else
-        link.has_mesh = true;
+      add_primitive(link, pose, shape, [&](const char* name, std::size_t count) {
+        return shape.numbers(shape.required(name), count);
+      });
   }
 }
 
@@ -72,7 +64,8 @@ MechanismJoint urdf_joint(const XmlElement& element) {
     joint.damping_Nm_s_rad = dynamics->number_at("damping").value_or(0);
     joint.friction_Nm = dynamics->number_at("friction").value_or(0);
   }
-  if (const auto limit = element.find("limit")) joint.speed_rad_s = limit->number_at("velocity");
+  if (const auto limit = element.find("limit"))
+    joint.speed_rad_s = stated_speed_rad_s(limit->number_at("velocity"));
   return joint;
 }
 
@@ -81,6 +74,29 @@ void refuse_xacro(const XmlElement& element) {
     element.fail("an element of xacro", "a URDF without xacro",
                  "expand it: xacro robot.urdf.xacro > robot.urdf");
   for (const XmlElement& child : element.children()) refuse_xacro(child);
+}
+
+/// Joints hold links that exist, each link once, and one link is held by none.
+void check_tree(const std::vector<XmlElement>& links, const std::vector<XmlElement>& joints,
+                const std::vector<MechanismJoint>& read) {
+  std::set<std::string> names, below;
+  for (const XmlElement& link : links) names.insert(link.required("name"));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (const std::string& name : {read[i].parent, read[i].child})
+      if (!names.contains(name))
+        joints[i].fail("the link " + joulepath::quoted(name), "a <link> of this file");
+    if (!below.insert(read[i].child).second)
+      joints[i].fail("a second joint to " + joulepath::quoted(read[i].child), "one joint to each link");
+  }
+  std::string first;
+  for (const XmlElement& link : links) {
+    const std::string name = link.required("name");
+    if (below.contains(name)) continue;
+    if (!first.empty())
+      link.fail("a second link that no joint holds, beside " + joulepath::quoted(first),
+                "a tree of links and joints with one root");
+    first = name;
+  }
 }
 
 /// Joints with a transmission or with a velocity interface of ros2_control.
@@ -105,20 +121,37 @@ Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy
          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
 }
 
+void add_primitive(MechanismLink& link, const Eigen::Isometry3d& pose, const XmlElement& shape,
+                   const std::function<std::vector<double>(const char* name, std::size_t count)>& sizes) {
+  const auto size = [&](const char* name) { return sizes(name, 1).front(); };
+  const std::string kind = shape.name();
+  if (kind == "box")
+    add_shape(link, pose, box_points(Eigen::Vector3d(sizes("size", 3).data())));
+  else if (kind == "cylinder")
+    add_shape(link, pose, cylinder_points(size("radius"), size("length")), size("radius"));
+  else if (kind == "capsule")
+    add_balls(link, pose, capsule_ends(size("length")), size("radius"));
+  else if (kind == "sphere")
+    add_balls(link, pose, {Eigen::Vector3d::Zero()}, size("radius"));
+  else
+    link.has_mesh = true;
+}
+
+std::optional<double> stated_speed_rad_s(const std::optional<double>& limit) {
+  constexpr double kNoLimit_rad_s = 1e6;
+  return limit && *limit > 0 && *limit < kNoLimit_rad_s ? limit : std::nullopt;
+}
+
 Mechanism read_urdf(const XmlElement& root) {
   refuse_xacro(root);
   Mechanism mechanism{.file = root.file(), .name = root.attribute("name").value_or("")};
   std::map<std::string, Eigen::Isometry3d> pose_of;
-  std::set<std::string> below;  // links that a joint holds
   const std::vector<XmlElement> links = root.children("link"), joints = root.children("joint");
-  for (const XmlElement& element : joints) {
-    mechanism.joints.push_back(urdf_joint(element));
-    if (!below.insert(mechanism.joints.back().child).second)
-      element.fail("a second joint to " + joulepath::quoted(mechanism.joints.back().child),
-                   "one joint to each link");
-  }
+  for (const XmlElement& element : joints) mechanism.joints.push_back(urdf_joint(element));
+  check_tree(links, joints, mechanism.joints);
   for (const XmlElement& element : links)
-    if (const std::string name = element.required("name"); !below.contains(name))
+    if (const std::string name = element.required("name");
+        std::ranges::find(mechanism.joints, name, &MechanismJoint::child) == mechanism.joints.end())
       pose_of[name] = Eigen::Isometry3d::Identity();
   for (std::size_t known = 0; known < pose_of.size();) {
     known = pose_of.size();

@@ -10,6 +10,7 @@ namespace {
 
 using Blocking = OrderAction::Blocking;
 
+constexpr double kHeadingRounding_rad = 0.01;
 constexpr double kFarNeighbor_m = 300;  ///< between neighbors in a building or a yard
 
 bool keeps_standing(const OrderAction& action) {
@@ -54,19 +55,27 @@ void place_start(MissionRequest& mission, const Order& order) {
   mission.start.heading_given = true;
 }
 
+/// Whether the robot is at a node, in its heading where both have one.
 bool stands_there(const MissionRequest& mission, const OrderNode& node) {
   if (!mission.marks.keys.contains("start")) return false;
   const Pose& here = mission.start.pose;
+  if (node.heading_rad && mission.start.heading_given &&
+      std::abs(wrapped_angle_rad(*node.heading_rad - here.heading_rad)) >
+          std::max(node.deviation_rad, kHeadingRounding_rad))
+    return false;
   return std::hypot(here.x_m - node.x_m, here.y_m - node.y_m) <=
          std::max(node.deviation_m, kTrajectoryRounding_m);
+}
+
+[[noreturn]] void refuse_one_node(const OrderNode& node, const std::string& hint) {
+  throw ConfigError({node.marks.item, "/nodes", "a base of one node", "at least two released nodes", hint});
 }
 
 /// The way from the robot's pose to the one node of an order, by the search.
 void drive_to_only_node(MissionRequest& mission, const Order& order) {
   const OrderNode& node = order.nodes.front();
   if (!mission.marks.keys.contains("start"))
-    throw ConfigError({node.marks.item, "/nodes", "a base of one node", "at least two released nodes",
-                       "a mission with order:, start: and map: plans the way from the robot's pose"});
+    refuse_one_node(node, "a mission with order:, start: and map: plans the way from the robot's pose");
   mission.stations.insert_or_assign(
       node.id,
       Station{.x_m = node.x_m, .y_m = node.y_m, .heading_rad = node.heading_rad, .marks = node.marks});
@@ -165,6 +174,8 @@ void follow_order(MissionRequest& mission, const NamedBy& named_by) {
     payload_kg = after_kg;
     first = node;
   }
+  if (mission.legs.empty())
+    refuse_one_node(order.nodes.front(), "the robot stands there and no action holds it: nothing to plan");
 }
 
 }  // namespace joulepath

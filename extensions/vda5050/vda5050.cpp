@@ -11,11 +11,13 @@ namespace {
 
 FileSummary check_order_file(const std::string& file, const ReadOptions&) {
   const Order order = read_order(file);
-  MissionRequest mission{.order_file = file};
-  follow_order(mission);
-  FileSummary summary{
-      "order", counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
-      order_notes(order)};
+  std::string way = ", reached from where the robot stands";
+  if (order.released_count() > 1) {
+    MissionRequest mission{.order_file = file};
+    follow_order(mission);
+    way = ", driven in " + counted(mission.legs.size(), "leg");
+  }
+  FileSummary summary{"order", counted(order.nodes.size(), "node") + way, order_notes(order)};
   if (const std::size_t horizon = order.nodes.size() - order.released_count(); horizon > 0)
     summary.notes.push_back(counted(horizon, "node") + " of the horizon: not planned");
   return summary;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "model/printable.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
@@ -45,8 +46,20 @@ PathValue waypoint_path(const Points& xy_m, const std::optional<Numbers>& corner
                      ""});
 }
 
+/// Each as a UserWarning at the caller of the package's function. Needs the GIL.
+void warn(const std::vector<std::string>& notes) {
+  constexpr int kCallerOfThePackage = 2;
+  for (const std::string& note : notes)
+    if (PyErr_WarnEx(PyExc_UserWarning, printable(note).c_str(), kCallerOfThePackage) < 0)
+      throw nb::python_error();
+}
+
 PathValue load_path(const std::string& file) {
-  return {is_waypoint_file(file) ? read_waypoints(file) : path_from(Document::load(file))};
+  std::vector<std::string> notes;
+  PathValue path{is_waypoint_file(file) ? read_waypoints(file, {}, {}, &notes)
+                                        : path_from(Document::load(file), {}, &notes)};
+  warn(notes);
+  return path;
 }
 
 /// x, y and heading at path coordinates that are `step_m` apart at most, one list each.
@@ -176,8 +189,11 @@ void bind_plan(nb::module_& module) {
                                    .robot_at_hand = robot != nullptr,
                                    .payload_kg = payload_kg,
                                    .duration_s = time_s};
-        return planned([&] { return read_mission_source(source); }, robot,
-                       plan_options(solver, nodes, seed, accuracy, baselines));
+        std::vector<std::string> notes;
+        auto plan = planned([&] { return read_mission_source(source, {}, &notes); }, robot,
+                            plan_options(solver, nodes, seed, accuracy, baselines));
+        warn(notes);
+        return plan;
       },
       nb::arg("file"), nb::arg("robot_file"), nb::arg("robot").none(), nb::arg("map_file"),
       nb::arg("payload_kg").none(), nb::arg("time_s").none(), nb::arg("solver"), nb::arg("nodes"),

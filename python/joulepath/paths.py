@@ -42,7 +42,10 @@ class Path(Value):
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Path:
-        """The path of a file: waypoints (CSV) or Bezier curves (YAML). Raises ConfigError."""
+        """The path of a file: waypoints (CSV) or Bezier curves (YAML). Raises ConfigError.
+
+        What the reader decided, as a stop where the curvature jumps, is a UserWarning.
+        """
         path = cls.__new__(cls)
         path._value = _core.load_path(file_name("file", file))
         return path

@@ -177,7 +177,7 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
     if (root.has(key) && !root.has("order")) root[key].fail("no such key", "only allowed with order:");
   const bool graph_or_map = !mission.map_file.empty() || !mission.route_graph_file.empty();
   for (const auto& leg : mission.legs)
-    if (!leg.to.empty() && !leg.path && !graph_or_map)  // legs of an order have their paths
+    if (!leg.to.empty() && !leg.path && !graph_or_map)  // along edges of an order it has
       throw ConfigError({leg.marks.at("to"), leg.marks.key_path("to"), "a leg to a station, but no map",
                          "map: with the name of a Nav2 map file",
                          "without a map every leg needs its path or motion"});

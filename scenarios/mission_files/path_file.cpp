@@ -165,6 +165,12 @@ WaypointPath path_along(const CsvTable& table, std::optional<double> tolerance_m
     waypoints_m.push_back({x_m[row], y_m[row]});
     poses.push_back({x_m[row], y_m[row], 0.0});
   }
+  if (table.find("corner_radius_m") != nullptr && tolerance_m)
+    throw ConfigError({{table.file, 1, 1},
+                       "corner_radius_m",
+                       "corner radii together with a tolerance",
+                       "one of them",
+                       "--tolerance and tolerance_m are for a curve through points"});
   if (table.find("corner_radius_m") != nullptr)
     return lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0));
   if (table.find("heading_rad") == nullptr || poses.size() < 2)
@@ -217,6 +223,12 @@ Path path_from(const Document& document, const ReadOptions& options, std::vector
                           notes);
   if (const auto tolerance = root.find("tolerance_m"))
     tolerance->fail("no such key", "only allowed with waypoints:");
+  if (tolerance_m)
+    throw ConfigError({{"--tolerance", 0, 0},
+                       "",
+                       "a value together with Bezier curves",
+                       "a value only together with points",
+                       "curves are followed exactly"});
   const Node curves = root["bezier_m"];
   const std::vector<BezierPoints> bezier_m = read_bezier(curves);
   BezierChainResult chain = bezier_chain(bezier_m, start_of(bezier_m), BezierFrame::map);

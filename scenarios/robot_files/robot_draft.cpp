@@ -21,6 +21,13 @@ const DraftValue* value_of(const RobotDraft& draft, const std::string& key) {
   return found == draft.values.end() ? nullptr : &*found;
 }
 
+/// Whether two values are of one thing: a robot has each effect once, and one footprint, a disc or a polygon.
+bool says_the_same(const DraftValue& a, const DraftValue& b) {
+  if (a.key == "effects" && b.key == "effects")
+    return a.text.substr(0, a.text.find(':')) == b.text.substr(0, b.text.find(':'));
+  return a.key == b.key || (a.key.starts_with("footprint.") && b.key.starts_with("footprint."));
+}
+
 std::string line_of(const RobotDraft& draft, const Schema::Key& key, const std::string& dotted) {
   const std::string indent = dotted == key.name ? "" : "  ";
   if (const DraftValue* value = value_of(draft, dotted))
@@ -29,7 +36,7 @@ std::string line_of(const RobotDraft& draft, const Schema::Key& key, const std::
   return indent + "# missing: " + dotted + (key.says.empty() ? "" : " (" + key.says + ")") + "\n";
 }
 
-std::string section(const RobotDraft& draft, const Schema::Key& section) {
+std::string lines_of(const RobotDraft& draft, const Schema::Key& section) {
   std::string lines;
   bool empty = true;
   for (const Schema::Key& key : section.schema.keys) {
@@ -63,12 +70,9 @@ void add_draft(RobotDraft& draft, const RobotDraft& more) {
   if (draft.name.empty()) draft.name = more.name;
   draft.notes.insert(draft.notes.end(), more.notes.begin(), more.notes.end());
   for (const DraftValue& value : more.values) {
-    const auto is_same = [&](const DraftValue& other) {  // a robot has one footprint, a disc or a polygon
-      return other.key == value.key ||
-             (other.key.starts_with("footprint.") && value.key.starts_with("footprint."));
-    };
-    const auto known = std::ranges::find_if(draft.values, is_same);
-    if (known == draft.values.end() || value.key == "effects")
+    const auto known = std::ranges::find_if(
+        draft.values, [&](const DraftValue& other) { return says_the_same(other, value); });
+    if (known == draft.values.end())
       draft.values.push_back(value);
     else if (known->text != value.text)
       known->origin += "; not used: " + value.text + " of " + value.origin;
@@ -86,7 +90,7 @@ std::string draft_text(const RobotDraft& draft) {
   for (const Schema::Key& key : robot_schema().keys) {
     if (key.name == "schema" || key.name == "name") continue;
     text += key.name == "effects"                  ? effects(draft)
-            : key.schema.kind == Schema::Kind::map ? section(draft, key)
+            : key.schema.kind == Schema::Kind::map ? lines_of(draft, key)
                                                    : line_of(draft, key, key.name);
   }
   return text;

@@ -18,9 +18,10 @@ std::optional<int> digits_at(std::string_view text, std::size_t from, std::size_
 /// East of Greenwich, of what follows the seconds: nothing, Z or +02:00.
 std::optional<std::chrono::minutes> offset_of(std::string_view zone) {
   if (zone.empty() || zone == "Z") return std::chrono::minutes(0);
-  const auto hour = digits_at(zone, 1, 2), minute = digits_at(zone, zone.size() - 2, 2);
   const bool shaped = zone.size() == 5 || (zone.size() == 6 && zone[3] == ':');
-  if (!shaped || (zone[0] != '+' && zone[0] != '-') || !hour || !minute) return {};
+  if (!shaped || (zone[0] != '+' && zone[0] != '-')) return {};
+  const auto hour = digits_at(zone, 1, 2), minute = digits_at(zone, zone.size() - 2, 2);
+  if (!hour || !minute) return {};
   return (zone[0] == '-' ? -1 : 1) * std::chrono::minutes(60 * *hour + *minute);
 }
 

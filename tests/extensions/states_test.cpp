@@ -37,7 +37,7 @@ TEST_F(Bags, StatesOfVda5050AreALogPerRobot) {
   EXPECT_EQ(run.trajectory.battery_voltage_V, std::vector<double>(5, 48.0));
   EXPECT_EQ(utc_nanoseconds("1970-01-02T00:00:01.25Z"), std::uint64_t{86'401'250'000'000});
   for (const char* wrong : {"", "2726-05-01T10:00:39Z", "1970-01-02", "1970-13-02T00:00:01Z",
-                            "1970-01-02T00:00:01+2", "1970-01-02T00:00:01.x5Z"})
+                            "1970-01-02T00:00:01+2", "2026-05-01T12:30:15X", "1970-01-02T00:00:01.x5Z"})
     EXPECT_FALSE(utc_nanoseconds(wrong)) << wrong;
 }
 

@@ -55,6 +55,14 @@ class ForeignBags : public Bags {
   static std::string table(const std::string& columns) { return "CREATE TABLE " + columns; }
 };
 
+TEST_F(ForeignBags, AnUnfinishedTransactionIsRefused) {
+  const std::string bag = database({table(kTopics), table(kMessageTable)});
+  std::ofstream(bag + "-journal") << "";
+  EXPECT_EQ(reading(bag).error, "");
+  std::ofstream(bag + "-journal") << "half";
+  EXPECT_NE(reading(bag).error.find("an unfinished transaction in " + bag + "-journal"), std::string::npos);
+}
+
 /// Messages that are still in the write-ahead log are read; nothing is written beside the bag.
 TEST_F(ForeignBags, WriteAheadLogsAreReadAndNothingIsWrittenBeside) {
   namespace fs = std::filesystem;

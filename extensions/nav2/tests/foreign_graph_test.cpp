@@ -102,6 +102,20 @@ TEST(ForeignGraph, WhatIsNoPlaceOnAMapIsRefused) {
   const std::string floors = with(
       kNavigation, "levels:\n", "levels:\n  L2: {lanes: [[0, 1, {}]], vertices: [[0, 0, {}], [1, 0, {}]]}\n");
   EXPECT_NE(refusal(scratch.write("d.yaml", floors)).find("2 levels with lanes: L2, L1"), std::string::npos);
+  EXPECT_NE(
+      refusal(scratch.write("g.yaml",
+                            with(kBuilding, "[300, 200, 0, shelf, {is_parking_spot: [4, true]}]", "[5]")))
+          .find("[x, y, ...]"),
+      std::string::npos);
+  // A lane without a graph_idx is of graph 0.
+  EXPECT_NE(
+      refusal(scratch.write("h.yaml", with(with(kBuilding, "[4, true], graph_idx: [2, 0]", "[4, true]"),
+                                           "[4, false], graph_idx: [2, 0]", "[4, false], graph_idx: [2, 1]")))
+          .find("lanes of the graphs 0, 1"),
+      std::string::npos);
+  EXPECT_NE(refusal(scratch.write("i.yaml", with(kNavigation, "speed_limit: 0.3", "speed_limit: 300")))
+                .find("i.yaml:4:"),
+            std::string::npos);
   const std::string point =
       R"({"type": "FeatureCollection", CRS"features": [{"type": "Feature", "properties": {"id": 0FRAME},
     "geometry": {"type": "Point", "coordinates": [11.5, 48.1]}}]})";

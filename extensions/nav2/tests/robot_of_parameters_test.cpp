@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "scenarios/robot_files/robot_sources.hpp"
@@ -40,10 +41,25 @@ diff_drive_controller:
   EXPECT_EQ(values["geometry.half_track_m"], "0.17");
   EXPECT_EQ(values["geometry.wheel_radius_m"], "0.08");
   EXPECT_EQ(values["footprint.polygon_m"], "[[0.3, 0.2], [-0.2, 0.2], [-0.2, -0.2], [0.3, -0.2]]");
-  for (const DraftValue& value : draft.values)
-    if (value.key == "limits.acceleration_m_s2") {
-      EXPECT_NE(value.origin.find("params.yaml line 4"), std::string::npos);
-    }
+  const auto acceleration =
+      std::ranges::find(draft.values, std::string("limits.acceleration_m_s2"), &DraftValue::key);
+  ASSERT_NE(acceleration, draft.values.end());
+  EXPECT_NE(acceleration->origin.find("params.yaml line 4"), std::string::npos);
+}
+
+TEST(RobotOfParameters, AnEmptyFootprintIsNone) {
+  const ScratchDirectory scratch;
+  const auto values_with = [&](const std::string& local, const std::string& global) {
+    return values_in(draft_from(
+        {scratch.write("params.yaml", "local_costmap: {local_costmap: {ros__parameters: {" + local +
+                                          "}}}\nglobal_costmap: {global_costmap: {ros__parameters: {" +
+                                          global + "}}}\nwheels: {ros__parameters: {wheel_radius: 0.08}}\n")},
+        {}));
+  };
+  const std::string triangle = "footprint: \"[[0.3, 0], [-0.2, 0.2], [-0.2, -0.2]]\"";
+  EXPECT_EQ(values_with("footprint: \"[]\", robot_radius: 0.22", triangle)["footprint.radius_m"], "0.22");
+  EXPECT_EQ(values_with("footprint: \"[[0.1, 0], [0.2, 0]]\"", triangle)["footprint.polygon_m"],
+            "[[0.3, 0], [-0.2, 0.2], [-0.2, -0.2]]");
 }
 
 TEST(RobotOfParameters, RmfFleetsGiveLimitsMassBatteryAndPower) {

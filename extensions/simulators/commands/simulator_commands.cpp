@@ -1,4 +1,5 @@
 #include <iostream>
+#include <utility>
 
 #include "app/program_parts.hpp"
 #include "extensions/simulators/model_export.hpp"
@@ -16,6 +17,7 @@ class ModelTask : public ExportTask {
   void declare(CommandLine&) override {}
 
   int run(const ExportArguments& arguments) override {
+    refuse_plan_options(arguments.source);
     const Robot robot = read_robot(arguments.source.file);
     const double payload_kg = arguments.source.payload_kg.value_or(0.0);
     check_payload(payload_kg, robot, arguments.source.file, {{"--payload", 0, 0}, ""});
@@ -26,6 +28,20 @@ class ModelTask : public ExportTask {
     for (const std::string& lost : model.lost) std::cerr << "not in the model: " << lost << "\n";
     tell_export_files(files);
     return kDone;
+  }
+
+ private:
+  void refuse_plan_options(const MissionSource& source) const {
+    for (const auto& [option, given] : {std::pair{"--robot", !source.robot_file.empty()},
+                                        {"--map", !source.map_file.empty()},
+                                        {"--time", source.duration_s.has_value()},
+                                        {"--tolerance", source.tolerance_m.has_value()}})
+      if (given)
+        throw ConfigError({{option, 0, 0},
+                           "",
+                           "a value together with --to " + name(),
+                           "no such option",
+                           "a model is written of a robot file; nothing is planned"});
   }
 };
 

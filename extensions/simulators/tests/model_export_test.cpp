@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "extensions/simulators/plant_model.hpp"
@@ -20,6 +21,10 @@ TEST(ModelExport, EachFormatReadsBackAsTheRobot) {
   Robot robot = testing::nomad();
   robot.name = "a & <b>";
   robot.geometry.center_of_mass_offset_m = 0.04;
+  for (const Side side : kSides) {
+    robot.motor[side].viscous_friction_Nm_s_rad = 0.013;
+    robot.motor[side].friction_torque_Nm = 0.21;
+  }
   for (const std::string format : {"mjcf", "sdf", "urdf"}) {
     const ModelExport model = model_export(robot, 0.0, format);
     const RobotDraft draft = draft_from({scratch.write("robot." + format, model.text)}, {});
@@ -36,6 +41,8 @@ TEST(ModelExport, EachFormatReadsBackAsTheRobot) {
     expect("inertia.chassis_mass_kg", robot.inertia.chassis_mass_kg);
     expect("inertia.chassis_yaw_inertia_kg_m2", robot.inertia.chassis_yaw_inertia_kg_m2);
     expect("inertia.wheel_diameter_inertia_kg_m2", robot.inertia.wheel_diameter_inertia_kg_m2);
+    expect("motor.viscous_friction_Nm_s_rad", 0.013);
+    expect("motor.friction_torque_Nm", 0.21);
     if (format == "mjcf")
       expect("inertia.wheel_axle_inertia_kg_m2", robot.inertia.wheel_axle_inertia_kg_m2);
     else
@@ -43,15 +50,30 @@ TEST(ModelExport, EachFormatReadsBackAsTheRobot) {
   }
 }
 
+/// Torque = (K / R) (voltage - Kv speed).
+TEST(ModelExport, ActuatorsOfMjcfAreTheMotors) {
+  const Robot robot = testing::nomad();
+  const Motor& motor = robot.motor.left;
+  const std::string text = model_export(robot, 0.0, "mjcf").text;
+  const auto number_after = [&](const std::string& mark) {
+    const auto at = text.find(mark);
+    EXPECT_NE(at, std::string::npos) << mark;
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + mark.size()));
+  };
+  const double gain_Nm_V = motor.torque_per_ampere_Nm_A() / motor.resistance_ohm;
+  EXPECT_NEAR(number_after("gainprm=\""), gain_Nm_V, 1e-6 * gain_Nm_V);
+  const double bias = -gain_Nm_V * motor.volts_per_speed_V_s_rad();
+  EXPECT_NEAR(number_after("biasprm=\"0 0 "), bias, 1e-6 * std::abs(bias));
+}
+
 TEST(ModelExport, APayloadIsAPartOfTheChassis) {
   const ScratchDirectory scratch;
   const Robot robot = testing::nomad();
   const RobotDraft draft =
       draft_from({scratch.write("robot.urdf", model_export(robot, 8.0, "urdf").text)}, {});
-  for (const DraftValue& value : draft.values)
-    if (value.key == "inertia.chassis_mass_kg") {
-      EXPECT_NEAR(std::stod(value.text), robot.inertia.chassis_mass_kg + 8.0, 1e-9);
-    }
+  const auto mass = std::ranges::find(draft.values, std::string("inertia.chassis_mass_kg"), &DraftValue::key);
+  ASSERT_NE(mass, draft.values.end());
+  EXPECT_NEAR(std::stod(mass->text), robot.inertia.chassis_mass_kg + 8.0, 1e-9);
 }
 
 TEST(PlantModel, PointsAndPathsAreInMillimeters) {

@@ -205,6 +205,126 @@ TEST(ModelFiles, SolidsWithoutInertialHaveTheMassOfTheirGeoms) {
               box_kg * (0.4 * 0.4 + 0.26 * 0.26) / 12 + 0.01 + apart, 1e-5);
 }
 
+double number_in(const RobotDraft& draft, const std::string& key) {
+  auto values = values_of(draft);
+  EXPECT_TRUE(values.contains(key)) << key;
+  return values.contains(key) ? std::stod(values[key]) : 0.0;
+}
+
+std::string refusal_of(const std::string& file) {
+  try {
+    static_cast<void>(draft_from({file}, {}));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ModelFiles, SpeedsOfVelocityActuatorsAreSeenThroughTheirGears) {
+  const ScratchDirectory scratch;
+  const auto geared = [&](const std::string& more) {
+    std::string text = kMjcf;
+    for (const std::string side : {"left", "right"})
+      text = with(text, "\"" + side + "_joint\" ctrlrange", "\"" + side + "_joint\" " + more + " ctrlrange");
+    return scratch.write("cart.xml", text);
+  };
+  // 16 of the transmission are 1.6 rad/s of a wheel with 0.05 m.
+  EXPECT_NEAR(number_in(draft_from({geared("gear=\"-10\"")}, {}), "limits.speed_m_s"), 0.08, 1e-9);
+  EXPECT_FALSE(values_of(draft_from({geared("ctrllimited=\"false\"")}, {})).contains("limits.speed_m_s"));
+  EXPECT_NE(refusal_of(geared("gear=\"\"")).find("one number or more"), std::string::npos);
+}
+
+TEST(ModelFiles, AxesOfSdfAreInTheFrameThatTheyName) {
+  const ScratchDirectory scratch;
+  const std::string own = "<xyz>0 0 1</xyz><use_parent_model_frame>false</use_parent_model_frame>";
+  const auto stated = [&](const std::string& axis, const std::string& version) {
+    std::string text = with(sdf(), "version=\"1.9\"", "version=\"" + version + "\"");
+    for (int side = 0; side < 2; ++side) text = with(text, own, axis);
+    return draft_from({scratch.write("cart.sdf", text)}, {});
+  };
+  // The wheels are turned by a roll: their own z is the y of the base.
+  expect_cart(stated("<xyz expressed_in=\"base\">0 1 0</xyz>", "1.9"));
+  expect_cart(stated("<xyz expressed_in=\"__model__\">0 1 0</xyz>", "1.9"));
+  expect_cart(stated("<xyz expressed_in=\"left_wheel\">0 0 1</xyz>", "1.9"));
+  expect_cart(stated("<xyz>0 0 1</xyz>", "1.5"));
+  expect_cart(stated("<xyz>0 1 0</xyz>", "1.4"));
+}
+
+TEST(ModelFiles, ShapesOfSdfStandInTheFrameThatTheyName) {
+  const ScratchDirectory scratch;
+  const std::string shelf = with(sdf(), "<pose>0.05 0 0.1 0 0 0</pose><geometry>",
+                                 "<pose relative_to=\"shelf\">0.15 0 0.1 0 0 0</pose><geometry>");
+  EXPECT_EQ(values_of(draft_from({scratch.write("a.sdf", shelf)}, {}))["footprint.polygon_m"],
+            values_of(draft_from({scratch.write("b.sdf", sdf())}, {}))["footprint.polygon_m"]);
+}
+
+TEST(ModelFiles, WhatMassesAreMissingIsTold) {
+  const ScratchDirectory scratch;
+  const std::string nested = with(sdf(), "<frame name=\"shelf\"",
+                                  "<model name=\"arm\"><link name=\"l\"/></model><frame name=\"shelf\"");
+  const RobotDraft draft = draft_from({scratch.write("cart.sdf", nested)}, {});
+  EXPECT_TRUE(std::ranges::any_of(draft.notes, [](const std::string& note) {
+    return note.find("<model> is not read: its masses are missing") != std::string::npos;
+  }));
+  const std::string copies =
+      with(kMjcf, "<body name=\"battery\"",
+           "<replicate count=\"2\"><geom size=\"1\"/></replicate><body name=\"battery\"");
+  EXPECT_NE(refusal_of(scratch.write("cart.xml", copies)).find("<replicate>"), std::string::npos);
+}
+
+/// The battery in a frame, the wheels' class and the actuators in two sections: the same cart.
+TEST(ModelFiles, FramesAndRepeatedSectionsOfMjcfGiveTheSameRobot) {
+  const ScratchDirectory scratch;
+  std::string text = with(kMjcf, R"(<body name="battery" pos="-0.1 0 0.05" euler="0 0 90">)",
+                          R"(<frame pos="-0.1 0 0" euler="0 0 90"><body name="battery" pos="0 0 0.05">)");
+  text = with(text, R"(diaginertia="0.02 0.03 0.01"/></body>)",
+              R"(diaginertia="0.02 0.03 0.01"/></body></frame>)");
+  text = with(text, R"(<geom type="cylinder" size="0.05 0.01" mass="0"/></default></default>)",
+              R"(</default></default><default><default class="wheel">
+              <geom type="cylinder" size="0.05 0.01" mass="0"/></default></default>)");
+  text =
+      with(text, R"(<velocity joint="right_joint")", R"(</actuator><actuator><velocity joint="right_joint")");
+  text =
+      with(text, R"(<body name="right_wheel")", R"(</body></worldbody><worldbody><body name="right_wheel")");
+  text = with(text, "</body>\n  </body></worldbody>\n  <actuator>", "</body>\n  </worldbody>\n  <actuator>");
+  // A body of the second section has no parent and no fixed joint; its place is in the world.
+  expect_cart(draft_from({scratch.write("cart.xml", text)}, {}));
+}
+
+TEST(ModelFiles, TheOwnOrientationWinsOverThatOfTheClass) {
+  const ScratchDirectory scratch;
+  const std::string classes =
+      with(kMjcf, R"(<geom contype="1"/>)",
+           R"(<geom contype="1"/><default class="askew"><geom xyaxes="0 1 0 -1 0 0"/></default>)");
+  const std::string box = R"(<geom type="box" pos="0.05 0 0.1")";
+  const auto length_m = [&](const std::string& more) {
+    auto values = values_of(draft_from({scratch.write("cart.xml", with(classes, box, box + more))}, {}));
+    const Document corners = Document::parse(values["footprint.polygon_m"], "");
+    double front_m = 0;
+    for (const Node& corner : corners.root().items()) front_m = std::max(front_m, corner.items()[0].number());
+    return front_m;
+  };
+  EXPECT_NEAR(length_m(""), 0.25, 1e-6);
+  EXPECT_NEAR(length_m(R"( class="askew")"), 0.05 + 0.13, 1e-6);  // turned by a quarter
+  EXPECT_NEAR(length_m(R"( class="askew" euler="0 0 0")"), 0.25, 1e-6);
+}
+
+TEST(ModelFiles, CapsulesIncludeTheirCapsAndSpheresKnowNoRotation) {
+  const ScratchDirectory scratch;
+  const auto hull = [&](const std::string& shape, const std::string& rpy) {
+    std::string text = with(kUrdf, "PLUGIN", kPlugin);
+    text = with(text, R"(<origin xyz="0.05 0 0.1"/><geometry><box size="0.4 0.26 0.1"/>)",
+                "<origin xyz=\"0.05 0 0.1\" rpy=\"" + rpy + "\"/><geometry>" + shape);
+    return values_of(draft_from({scratch.write("cart.urdf", text)}, {}))["footprint.polygon_m"];
+  };
+  EXPECT_EQ(hull("<sphere radius=\"0.3\"/>", "0 0 0"), hull("<sphere radius=\"0.3\"/>", "0.3 0.4 0.5"));
+  const Document corners =
+      Document::parse(hull("<capsule radius=\"0.1\" length=\"0.4\"/>", "0 1.5707963267948966 0"), "");
+  double front_m = 0;
+  for (const Node& corner : corners.root().items()) front_m = std::max(front_m, corner.items()[0].number());
+  EXPECT_NEAR(front_m, 0.05 + 0.2 + 0.1, 0.003);  // a circumscribed polygon
+}
+
 TEST(ModelFiles, ErrorsNameFileLineAndElement) {
   const ScratchDirectory scratch;
   const auto message = [&](const std::string& text) {
@@ -222,6 +342,12 @@ TEST(ModelFiles, ErrorsNameFileLineAndElement) {
   EXPECT_NE(message(with(good, "<link name=\"caster\"/>", "<xacro:caster/>")).find("xacro robot.urdf.xacro"),
             std::string::npos);
   EXPECT_NE(message(with(good, "</robot>", "")).find("broken XML"), std::string::npos);
+  EXPECT_NE(message(with(good, R"(<child link="caster"/>)", R"(<child link="castor"/>)"))
+                .find("the link \"castor\", accepted: a <link> of this file"),
+            std::string::npos);
+  EXPECT_NE(message(with(good, "<link name=\"caster\"/>", "<link name=\"caster\"/><link name=\"loose\"/>"))
+                .find("a second link that no joint holds"),
+            std::string::npos);
   EXPECT_NE(message("<world/>").find("<robot> (URDF), <sdf> or <mujoco> (MJCF)"), std::string::npos);
 }
 

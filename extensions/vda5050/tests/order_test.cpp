@@ -7,6 +7,7 @@
 #include "extensions/vda5050/order_path.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "scenarios/any_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/mission_source.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
@@ -201,6 +202,39 @@ TEST(Order, TheOnlyNodeIsReachedFromTheRobotsPose) {
   EXPECT_FALSE(mission.legs[0].path.has_value());
   EXPECT_EQ(mission.stations.at("n0").x_m, 3);
   EXPECT_EQ(mission.start.pose.x_m, 1);
+}
+
+TEST(Order, AtItsOnlyNodeARobotTurnsToItsHeading) {
+  const ScratchDirectory scratch;
+  const auto mission_from_heading = [&](double heading_rad, const std::string& actions) {
+    MissionRequest mission{
+        .order_file = scratch.write("o.json", order(node(0, 3, 1, ", \"theta\": 1.5", actions), ""))};
+    mission.marks.keys["start"] = {};
+    mission.start.pose = {3.0, 1.0, heading_rad};
+    mission.start.heading_given = true;
+    follow_order(mission);
+    return mission;
+  };
+  const std::string pick =
+      R"({"actionType": "pick", "actionId": "1", "blockingType": "HARD",
+          "actionParameters": [{"key": "duration", "value": 5}]})";
+  EXPECT_FALSE(mission_from_heading(0.0, pick).legs.at(0).path.has_value());
+  const MissionRequest stands = mission_from_heading(1.5, pick);
+  EXPECT_TRUE(stands.legs.at(0).path.has_value());
+  EXPECT_EQ(stands.legs.at(0).dwell_s, 5);
+  try {
+    (void)mission_from_heading(1.5, "");
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("a base of one node"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("o.json:1:"), std::string::npos);
+  }
+}
+
+TEST(Order, AnOrderOfOneNodeIsValid) {
+  const ScratchDirectory scratch;
+  EXPECT_EQ(read_any_file(scratch.write("o.json", order(node(0, 3, 1), ""))).text,
+            "1 node, reached from where the robot stands");
 }
 
 TEST(Order, CoordinatesThatLookLikeMillimetersAreDoubted) {

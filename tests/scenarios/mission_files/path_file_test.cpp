@@ -56,6 +56,17 @@ TEST(PathFile, ASharpCornerIsKeptAndNoted) {
       << notes.front();
 }
 
+TEST(PathFile, AToleranceIsRefusedWhereNothingIsFitted) {
+  const ScratchDirectory scratch;
+  const std::string corners =
+      scratch.write("corners.csv", "x_m,y_m,corner_radius_m\n0,0,0\n2,0,0.3\n2,2,0\n");
+  EXPECT_NO_THROW((void)read_waypoints(corners));
+  EXPECT_THROW((void)read_waypoints(corners, 0.02), ConfigError);
+  const Document curves = Document::parse("bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]\n", "path.yaml");
+  EXPECT_NO_THROW((void)path_from(curves));
+  EXPECT_THROW((void)path_from(curves, {}, nullptr, 0.02), ConfigError);
+}
+
 TEST(PathFile, AStatedToleranceIsKeptAndAStraightLineNeedsNone) {
   const ScratchDirectory scratch;
   std::vector<std::string> notes;

@@ -34,6 +34,17 @@ TEST(MotorSheetFile, StatesEachConstantWithItsOrigin) {
   EXPECT_NE(text.find("gear_efficiency: {loss_fraction: "), std::string::npos);
 }
 
+TEST(MotorSheetFile, AnEffectOfASecondSourceIsNotUsed) {
+  RobotDraft draft, second;
+  draft.values.push_back({"effects", "gear_efficiency: {loss_fraction: 0.2}", "one.yaml"});
+  second.values.push_back({"effects", "gear_efficiency: {loss_fraction: 0.3}", "two.yaml"});
+  second.values.push_back({"effects", "rolling_resistance: {coefficient: 0.02}", "two.yaml"});
+  add_draft(draft, second);
+  ASSERT_EQ(draft.values.size(), 2u);
+  EXPECT_EQ(draft.values[0].text, "gear_efficiency: {loss_fraction: 0.2}");
+  EXPECT_EQ(draft.values[0].origin, "one.yaml; not used: gear_efficiency: {loss_fraction: 0.3} of two.yaml");
+}
+
 TEST(MotorSheetFile, ContradictionsAreToldWithTheirNumber) {
   // 6 Nm from 6 A where the speed at 12 V allows 0.56 Nm/A: torque in another unit.
   EXPECT_NE(refusal(kGood + "stall_torque_Nm: 6, stall_current_A: 6").find("1.868 times the torque"),
