@@ -104,6 +104,8 @@ XmlFile::XmlFile(const std::string& file)
 }
 
 bool is_xml(const std::string& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a pipe may have no writer
   std::ifstream in(file, std::ios::binary);
   char first = ' ';
   while (in.get(first) && (first == ' ' || first == '\n' || first == '\r' || first == '\t' ||
