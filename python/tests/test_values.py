@@ -32,6 +32,13 @@ def test_every_section_of_the_schema_can_be_replaced(robot):
         assert robot.replace(**{section: values}) == robot, section
 
 
+def test_paths_warn_of_what_the_reader_decided(tmp_path):
+    file = tmp_path / "path.yaml"
+    file.write_text("bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [4, 0], [5, 1], [5, 2]]]\n")
+    with pytest.warns(UserWarning, match="curvature jumps"):
+        jp.Path.load(file)
+
+
 def test_views_do_not_copy_and_outlive_their_plan(robot):
     p = jp.profile(robot, [[0, 0], [2, 0]])
     assert p.t.base is not None and not p.t.flags.writeable and not p.t.flags.owndata

@@ -58,7 +58,7 @@ class ForeignBags : public Bags {
 TEST_F(ForeignBags, AnUnfinishedTransactionIsRefused) {
   const std::string bag = database({table(kTopics), table(kMessageTable)});
   std::ofstream(bag + "-journal") << "";
-  EXPECT_EQ(reading(bag).error, "");
+  EXPECT_EQ(reading(bag).error.find("-journal"), std::string::npos);
   std::ofstream(bag + "-journal") << "half";
   EXPECT_NE(reading(bag).error.find("an unfinished transaction in " + bag + "-journal"), std::string::npos);
 }

@@ -114,7 +114,7 @@ TEST(ForeignGraph, WhatIsNoPlaceOnAMapIsRefused) {
           .find("lanes of the graphs 0, 1"),
       std::string::npos);
   EXPECT_NE(refusal(scratch.write("i.yaml", with(kNavigation, "speed_limit: 0.3", "speed_limit: 300")))
-                .find("i.yaml:4:"),
+                .find("i.yaml:5:"),
             std::string::npos);
   const std::string point =
       R"({"type": "FeatureCollection", CRS"features": [{"type": "Feature", "properties": {"id": 0FRAME},
