@@ -37,21 +37,12 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
-/// Adds a special message for a place outside the map, or where the map knows nothing.
+/// Adds a special message for a place outside the map.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
-  const auto cell = map.cell_of(verdict.x_m, verdict.y_m);
+  if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;
   const ObstacleField::Extent extent = field.extent_m();
   char text[320];
-  if (map.contains(cell)) {
-    if (map.at(cell) != kUnknownCell) return verdict;
-    std::snprintf(
-        text, sizeof text,
-        "the %s (%.3f, %.3f) m lies in unmapped space: a cell that the map does not know is an obstacle",
-        which, verdict.x_m, verdict.y_m);
-    verdict.message = text;
-    return verdict;
-  }
   std::snprintf(
       text, sizeof text,
       "the %s (%.3f, %.3f) m lies outside of the map, which covers x from %.2f to %.2f m and y from "

@@ -26,7 +26,7 @@ struct SearchRequest {
   TravelCost cost{};
   std::uint64_t seed{1};
   unsigned max_iterations{30000};  ///< of the planner's loop; the search does not read a clock
-  unsigned patience{2000};  ///< stop after so many iterations without an improvement of the cost by 0.2 %
+  unsigned patience{5000};  ///< stop after so many iterations without an improvement of the cost by 0.2 %
 };
 
 struct SearchResult {

@@ -231,19 +231,6 @@ TEST(Route, SaysWhyAndWhereThereIsNone) {
   EXPECT_FALSE(goal.verdict.message.empty());
 }
 
-TEST(Route, AGoalInUnmappedSpaceIsToldAsThat) {
-  OccupancyGrid map = free_grid(100, 100, 0.1);
-  for (int row = 40; row < 100; ++row)
-    for (int column = 60; column < 100; ++column)
-      map.occupancy_percent[map.index_of({column, row})] = kUnknownCell;
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  RouteRequest request{.start = {2, 2, 0}};
-  request.goal_x_m = 8, request.goal_y_m = 7;
-  const RouteResult result = plan_route(space, request);
-  EXPECT_EQ(result.verdict.status, RouteStatus::goal_blocked);
-  EXPECT_NE(result.verdict.message.find("unmapped"), std::string::npos) << result.verdict.message;
-}
-
 TEST(Route, KeepoutIsNeverCrossedAndIsNamed) {
   const OccupancyGrid map = free_grid(200, 100, 0.1);
   OccupancyGrid keepout = free_grid(200, 100, 0.1);
