@@ -1,5 +1,6 @@
 #include "scenarios/robot_files/motor_sheet_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
