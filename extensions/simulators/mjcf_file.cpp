@@ -85,8 +85,8 @@ Eigen::VectorXd numbers_in(const XmlElement& element, const std::string& text, s
 
 class MjcfReader {
  public:
-  explicit MjcfReader(const XmlElement& root) : root_(root) {
-    mechanism_ = {.file = root.file(), .name = root.attribute("model").value_or("")};
+  explicit MjcfReader(const XmlElement& root)
+      : root_(root), mechanism_{.file = root.file(), .name = root.attribute("model").value_or("")} {
     for (const char* kind : {"include", "attach", "replicate", "composite"})
       if (const auto found = root.descendants(kind); !found.empty())
         found.front().fail("<" + std::string(kind) + ">", "bodies that the file itself states",
@@ -388,8 +388,8 @@ Mechanism read_mechanism(const std::string& file) {
   const XmlElement root = xml.root();
   if (root.name() == "robot") return read_urdf(root);
   if (root.name() == "sdf") return read_sdf(root);
-  if (root.name() == "mujoco") return read_mjcf(root);
-  root.fail("<" + root.name() + ">", "<robot> (URDF), <sdf> or <mujoco> (MJCF)");
+  if (root.name() != "mujoco") root.fail("<" + root.name() + ">", "<robot> (URDF), <sdf> or <mujoco> (MJCF)");
+  return read_mjcf(root);
 }
 
 }  // namespace joulepath
