@@ -39,7 +39,7 @@ struct ExportedRobot {
   std::string name{};
   double radius_m{}, mass_kg{}, center_m{}, yaw_kg_m2{}, wheel_kg{}, across_kg_m2{}, body_axle_kg_m2{},
       rotor_kg_m2{};
-  double caster_m{}, caster_radius_m{}, friction{};
+  double caster_m{}, caster_radius_m{}, caster_z_m{}, friction{};
   std::vector<ExportedWheel> wheels{};
   double half_track_m{};
   Limits limits{};
@@ -62,6 +62,7 @@ ExportedRobot exported(const Robot& robot, double payload_kg) {
   out.rotor_kg_m2 = inertia.wheel_axle_inertia_kg_m2 - out.body_axle_kg_m2;
   out.caster_m = std::max(geometry.half_track_m, 2 * std::abs(out.center_m));
   out.caster_radius_m = kCasterSize * out.radius_m;
+  out.caster_z_m = out.caster_radius_m + kCasterGap_m - out.radius_m;
   const Limits limits = robot.limits.value_or(Limits{});
   out.friction = std::isfinite(limits.traction_coefficient) ? limits.traction_coefficient : kTireFriction;
   out.half_track_m = geometry.half_track_m;
@@ -100,7 +101,7 @@ std::string mjcf_text(const ExportedRobot& robot) {
   }
   for (const double x_m : {robot.caster_m, -robot.caster_m})
     casters += "      <geom type=\"sphere\" size=\"" + number(robot.caster_radius_m) + "\" pos=\"" +
-               number(x_m) + " 0 " + number(robot.caster_radius_m + kCasterGap_m - robot.radius_m) +
+               number(x_m) + " 0 " + number(robot.caster_z_m) +
                "\" contype=\"0\" conaffinity=\"1\" priority=\"1\" condim=\"1\" solref=\"0.006 1\"/>\n";
   return "<mujoco model=\"" + robot.name +
          "\">\n  <!-- Controls are voltages of the motors (V). -->\n"
@@ -148,8 +149,7 @@ std::string urdf_text(const ExportedRobot& robot) {
                      urdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
                                    robot.yaw_kg_m2, robot.yaw_kg_m2);
   for (const double x_m : {robot.caster_m, -robot.caster_m})
-    text += "    <collision><origin xyz=\"" + number(x_m) + " 0 " +
-            number(robot.caster_radius_m + kCasterGap_m - robot.radius_m) +
+    text += "    <collision><origin xyz=\"" + number(x_m) + " 0 " + number(robot.caster_z_m) +
             "\"/><geometry><sphere radius=\"" + number(robot.caster_radius_m) +
             "\"/></geometry></collision>\n";
   text += "  </link>\n  <gazebo reference=\"base_link\"><mu1>0</mu1><mu2>0</mu2></gazebo>\n";
@@ -189,8 +189,7 @@ std::string sdf_text(const ExportedRobot& robot) {
                      sdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
                                   robot.yaw_kg_m2, robot.yaw_kg_m2);
   for (const double x_m : {robot.caster_m, -robot.caster_m})
-    text += sdf_sphere(x_m > 0 ? "front" : "back",
-                       number(x_m) + " 0 " + number(robot.caster_radius_m + kCasterGap_m - robot.radius_m),
+    text += sdf_sphere(x_m > 0 ? "front" : "back", number(x_m) + " 0 " + number(robot.caster_z_m),
                        robot.caster_radius_m, 0.0);
   text += "    </link>\n";
   for (const ExportedWheel& wheel : robot.wheels) {

@@ -54,14 +54,6 @@ class FootprintChecker {
     return other;
   }
 
-  /// The pose at which an outline is compared with the floor; without the heading where it does not matter.
-  template <class AnyCurve>
-  [[nodiscard]] Pose pose_on(const AnyCurve& curve, double s_m) const {
-    if (!is_disc()) return curve.at(s_m).pose;
-    const auto position_m = curve.position_m(s_m);
-    return {position_m[0], position_m[1], 0};
-  }
-
   bool is_disc() const { return polygon_m_.empty(); }
   double clearance_m() const { return clearance_m_; }
   double circumscribed_radius_m() const { return outer_m_; }
@@ -71,6 +63,13 @@ class FootprintChecker {
   static constexpr double kTolerance_m = 1e-9;
 
  private:
+  /// The pose at which an outline is compared with the floor; without the heading where it does not matter.
+  template <class AnyCurve>
+  Pose pose_on(const AnyCurve& curve, double s_m) const {
+    if (!is_disc()) return curve.at(s_m).pose;
+    const auto position_m = curve.position_m(s_m);
+    return {position_m[0], position_m[1], 0};
+  }
   Pose pose_on(const PathPiece& piece, double s) const;
   double polygon_slack_m(const Pose& pose) const;
   Collision polygon_collision(double s, const Pose& pose, double slack) const;
