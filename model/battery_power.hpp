@@ -11,4 +11,9 @@ namespace joulepath {
 /// The same as a limit of plans, with room for their rounding.
 [[nodiscard]] double planned_battery_power_W(const Battery& battery);
 
+/// Power (W) that a battery at a state of charge takes at its terminals of what a charger offers, and the
+/// part of it that is stored.
+[[nodiscard]] double accepted_power_W(const Battery& battery, double fraction, double offered_W);
+[[nodiscard]] double stored_power_W(const Battery& battery, double fraction, double offered_W);
+
 }  // namespace joulepath

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/battery_sag.hpp"
 #include "model/power.hpp"
 
 namespace joulepath {
@@ -47,6 +48,8 @@ LimitState limit_state(const Plant& plant, const BodyMotion<double>& motion, con
                        double speed_gain_m_s2, double jerk_m_s3) {
   const Robot& robot = plant.robot;
   const Sided<WheelState<double>> wheels = operating_point(plant, motion, site);
+  const double battery_W =
+      supply_power_W(robot.power, {wheels.left.power_W, wheels.right.power_W}) + robot.power.standby_W;
   return {.plant = plant,
           .site = site,
           .motion = motion,
@@ -56,8 +59,8 @@ LimitState limit_state(const Plant& plant, const BodyMotion<double>& motion, con
               wheel_speeds_rad_s(robot.geometry, motion.acceleration_m_s2, motion.yaw_acceleration_rad_s2),
           .wheels = wheels,
           .normal_load_N = 0.5 * robot.total_mass_kg(plant.payload_kg(site.payload_kg)) * kGravity_m_s2,
-          .battery_power_W = supply_power_W(robot.power, {wheels.left.power_W, wheels.right.power_W}) +
-                             robot.power.standby_W};
+          .battery_power_W = battery_W,
+          .battery_sag_V = BatterySag(robot.battery)(battery_W)};
 }
 
 const Limit* limit_named(std::string_view name) {

@@ -19,6 +19,7 @@ struct LimitState {
   Sided<WheelState<double>> wheels{};
   double normal_load_N{};    ///< on each wheel, m g/2
   double battery_power_W{};  ///< at the terminals, standby included
+  double battery_sag_V{};    ///< what the battery's resistance takes of its voltage at this power
 };
 
 /// The state of a plant in motion. `speed_gain_m_s2` is an argument because at standstill the motion does not

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -27,6 +28,8 @@ struct Limits {
   double battery_power_W{kNoLimit};       ///< at the battery's terminals, standby included
   double max_payload_kg{kNoLimit};
   double reverse_speed_m_s{kNoLimit};  ///< a search drives backward only where it is finite
+  double battery_voltage_V{kNoLimit};  ///< open-circuit voltage that feeds the motors, see battery_charge.hpp
+  double charge_power_W{kNoLimit};     ///< into the battery's terminals
 };
 
 /// One row of the table of limits. State is LimitState (model/limit_table.hpp).
@@ -38,6 +41,7 @@ struct LimitRow {
   std::string_view meaning{};      ///< one line for the schema
   double Limits::*field{};         ///< the robot's value; null for a rating of the motors
   double State::Motor::*rating{};  ///< each motor's value; null otherwise
+  bool in_limits{true};            ///< a key of `limits:`; false: the planner takes it from the battery
   bool by_payload{true};           ///< rows of `limits: by_payload` may change it
   bool may_be_zero{};              ///< a robot with a limit of zero can still be of use
   bool per_wheel{};                ///< `value` depends on the side
@@ -152,6 +156,25 @@ inline constexpr std::array kLimitRows{
                     .by_payload = false,
                     .per_wheel = true,
                     .value = [](const State& x, Side side) { return x.wheels[side].voltage_V; }},
+    LimitRow<State>{.key = "battery_voltage_V",
+                    .name = "battery_voltage",
+                    .unit = "V",
+                    .meaning = "a motor's voltage and what the battery's resistance takes",
+                    .field = &Limits::battery_voltage_V,
+                    .in_limits = false,
+                    .by_payload = false,
+                    .per_wheel = true,
+                    .value = [](const State& x,
+                                Side side) { return std::abs(x.wheels[side].voltage_V) + x.battery_sag_V; }},
+    LimitRow<State>{.key = "charge_power_W",
+                    .name = "charge_power",
+                    .unit = "W",
+                    .meaning = "into the battery's terminals",
+                    .field = &Limits::charge_power_W,
+                    .in_limits = false,
+                    .by_payload = false,
+                    .may_be_zero = true,
+                    .value = [](const State& x, Side) { return std::max(0.0, -x.battery_power_W); }},
 };
 
 }  // namespace joulepath

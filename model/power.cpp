@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/battery_charge.hpp"
 #include "model/battery_power.hpp"
 
 namespace joulepath {
@@ -95,6 +96,16 @@ double most_battery_power_W(const Battery& battery) {
 double planned_battery_power_W(const Battery& battery) {
   constexpr double kWithin = 1 - 2e-6;  // a plan may exceed a limit by rounding
   return kWithin * most_battery_power_W(battery);
+}
+
+double accepted_power_W(const Battery& battery, double fraction, double offered_W) {
+  return std::min(offered_W, most_charge_power_W(at_charge(battery, fraction)));
+}
+
+double stored_power_W(const Battery& battery, double fraction, double offered_W) {
+  const Battery here = at_charge(battery, fraction);
+  const double power_W = std::min(offered_W, most_charge_power_W(here));
+  return power_W - battery_load(here, -power_W).loss_W;
 }
 
 BatteryLoad battery_load(const Battery& battery, double terminal_power_W) {

@@ -30,6 +30,16 @@ struct Inertia {
   double wheel_diameter_inertia_kg_m2{};  ///< I_m: wheel and rotor about a diameter
 };
 
+/// One thermal node of a motor's winding: data-sheet values, from the winding to the surroundings.
+struct WindingThermal {
+  double resistance_K_W{};
+  double capacity_J_K{};
+  double max_winding_C{kNoLimit};
+  double ambient_C{};  ///< also the temperature at which the motor has its `resistance_ohm`
+
+  bool operator==(const WindingThermal&) const = default;
+};
+
 /// One wheel's motor and gear, with friction seen at the wheel [P1, Eqs. (14)-(16)].
 struct Motor {
   double gear_ratio{};                 ///< n
@@ -40,7 +50,8 @@ struct Motor {
   double friction_torque_Nm{};         ///< T_m: Coulomb friction, opposes the wheel's own motion
   double max_voltage_V{kNoLimit};
   double max_current_A{kNoLimit};
-  double inductance_H{};  ///< L: used by the simulator only; 0 = neglected
+  double inductance_H{};                    ///< L: used by the simulator only; 0 = neglected
+  std::optional<WindingThermal> thermal{};  ///< absent: the resistance is constant
 
   double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }       ///< Kt n
   double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }  ///< Kv n
@@ -62,11 +73,19 @@ struct PowerSupply {
   PowerSharing sharing{PowerSharing::wheel};
 };
 
+/// Open-circuit voltage at a state of charge.
+struct OpenCircuitPoint {
+  double fraction{};
+  double voltage_V{};
+};
+
 struct Battery {
   double capacity_Wh{kNoLimit};
-  double open_circuit_voltage_V{kNoLimit};
+  double open_circuit_voltage_V{kNoLimit};  ///< with a curve: at the present charge, at first a full one
   double internal_resistance_ohm{};
   double reserve_fraction{};
+  std::vector<OpenCircuitPoint> open_circuit_curve{};  ///< rising; empty: the voltage is constant
+  double max_charge_current_A{kNoLimit};
 };
 
 /// Outline of the robot in its own frame (x forward, origin at the axle midpoint): a disc or a polygon.

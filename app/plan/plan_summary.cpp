@@ -88,6 +88,17 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery, bool is_
   stream << ", needs " << figure(battery.required_capacity_Wh, 4) << " Wh"
          << (is_upper_bound ? " (95 % upper bound)" : " expected") << ", "
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
+  if (battery.voltage_error_V)
+    stream << "battery voltage at its least charge on each leg, at most "
+           << figure(*battery.voltage_error_V, 2) << " V below the open-circuit curve\n";
+}
+
+void print_winding(std::ostream& stream, const WindingAccount& winding) {
+  stream << "windings up to " << figure(winding.highest_C, 4) << " C (" << side_name(winding.side) << "), "
+         << figure(-winding.above_limit_K, 3) << " K below the limit";
+  if (winding.price_of_heat > 0)
+    stream << ", slower for it: price of heat " << figure(winding.price_of_heat, 3);
+  stream << "\n";
 }
 
 /// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and
@@ -146,6 +157,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
            << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
     print_path_bound(stream, plan);
     if (plan.battery) print_battery(stream, *plan.battery, plan.sigma_has_model_error);
+    if (plan.winding) print_winding(stream, *plan.winding);
     stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }
   stream << "results in " << directory << "\n";

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "model/effects/effect.hpp"
+#include "model/winding.hpp"
 
 namespace joulepath {
 
@@ -41,7 +41,7 @@ struct WindingHeating {
   }
 
   double resistance_factor(double time_of_day_s) const {
-    return 1.0 + final_fraction * (1.0 - std::exp(-time_of_day_s / time_constant_s));
+    return 1.0 + first_order(0.0, final_fraction, time_of_day_s, time_constant_s);
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "model/battery_charge.hpp"
 #include "model/battery_power.hpp"
 #include "model/limit_table.hpp"
 #include "model/normal_quantiles.hpp"
@@ -30,7 +31,8 @@ double resting_s(const LegPlan& leg, double standby_W) {
   return leg.stretches.empty() && !leg.prescribed ? rest_s + leg.duration_s : rest_s;
 }
 
-LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
+LegLoss loss_on(const LegPlan& leg, const Plant& nominal) {
+  const Plant plant = plant_in(nominal, leg.state);
   LegLoss loss;
   for (const StretchPlan& stretch : leg.stretches) {
     loss.loss_J += stretch.battery_loss_J;
@@ -61,13 +63,20 @@ double sigma_shift_J(const LegPlan& leg, const UncertainPlant& plant, std::size_
   return shift_J;
 }
 
+/// How far (V) the open-circuit voltage on a leg is from the one that its motion was planned with, between
+/// the greatest and the least state of charge there.
+double voltage_error_V(const Battery& battery, const LegState& state, double most, double least) {
+  return std::max(std::abs(open_circuit_voltage_V(battery, most) - state.open_circuit_voltage_V),
+                  std::abs(open_circuit_voltage_V(battery, least) - state.open_circuit_voltage_V));
+}
+
 /// State of charge over the legs.
 class Charge {
  public:
   Charge(const Battery& battery, double start_fraction)
       : battery_(battery), capacity_J_(battery.capacity_Wh * kJoulesPerWh), start_(start_fraction) {}
 
-  double fraction() const { return start_ - net_J_ / capacity_J_; }
+  double fraction() const { return fraction_after(battery_, start_, net_J_); }
   double peak_J() const { return peak_J_; }
 
   void draw(double energy_J) {
@@ -76,12 +85,12 @@ class Charge {
   }
   /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
   double take_up(double power_W, double duration_s, double to_fraction) {
-    const double stored_W = power_W - battery_load(battery_, -power_W).loss_W;
-    const double stored_J =
-        std::clamp((to_fraction - fraction()) * capacity_J_, 0.0, std::max(0.0, stored_W * duration_s));
+    const double stored_W = stored_power_W(battery_, fraction(), power_W);
+    const double stored_J = std::clamp(energy_share_between(battery_, fraction(), to_fraction) * capacity_J_,
+                                       0.0, std::max(0.0, stored_W * duration_s));
     net_J_ -= stored_J;
     least_net_J_ = std::min(least_net_J_, net_J_);
-    return stored_W > 0 ? stored_J * power_W / stored_W : 0.0;
+    return stored_W > 0 ? stored_J * accepted_power_W(battery_, fraction(), power_W) / stored_W : 0.0;
   }
 
  private:
@@ -127,13 +136,19 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   const double standby_W = plant.robot.power.standby_W;
   Charge charge(battery, start_fraction);
   BatteryAccount account{.start_fraction = start_fraction,
-                         .lowest_voltage_V = battery.open_circuit_voltage_V};
+                         .lowest_voltage_V = open_circuit_voltage_V(battery, start_fraction)};
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
     const LegLoss loss = loss_on(leg, plant);
     account.loss_J += loss.loss_J;
     account.lowest_voltage_V = std::min(account.lowest_voltage_V, loss.lowest_voltage_V);
+    const double before = charge.fraction();
     charge.draw(leg.energy.total_J() + loss.loss_J - fed_W(leg, standby_W) * leg.dwell_s);
+    const auto [least, most] = std::minmax({before, charge.fraction()});
+    account.least_fraction_on_leg.push_back(least);
+    if (!battery.open_circuit_curve.empty())
+      account.voltage_error_V =
+          std::max(account.voltage_error_V.value_or(0.0), voltage_error_V(battery, leg.state, most, least));
     if (!account.fails_on_leg && charge.fraction() < battery.reserve_fraction) account.fails_on_leg = k;
     if (leg.charger_W > standby_W)
       leg.charged_J = charge.take_up(leg.charger_W - standby_W, leg.dwell_s, charge_to_fraction);
@@ -142,8 +157,9 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   }
   account.end_fraction = charge.fraction();
   if (plan.energy_sigma_J) {
-    const double half_width = kNormal95 * *plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
-    account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
+    const double half_width_J = kNormal95 * *plan.energy_sigma_J;
+    account.interval_95 = {fraction_after(battery, account.end_fraction, half_width_J),
+                           fraction_after(battery, account.end_fraction, -half_width_J)};
   }
   // A bound without the model's own error is none.
   const double margin_J =
@@ -161,6 +177,7 @@ namespace {
 /// neither alone does. The plan's energy does not depend on them.
 std::map<std::string, double> enough_charge(const BatteryAccount& account, const Battery& battery) {
   constexpr double kRounding = 1e-9;
+  if (!battery.open_circuit_curve.empty()) return {};  // then it does: offer_charge() plans anew
   const double lowest =
       *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
   const double start = account.start_fraction + (battery.reserve_fraction - lowest) * (1 + kRounding);

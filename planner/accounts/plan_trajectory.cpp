@@ -107,8 +107,9 @@ double end_s(const LegPlan& leg) { return leg.start_s + leg.duration_s + leg.dwe
 /// Rows of a plan in the order of time, with the energy between them.
 class PlanRows {
  public:
-  PlanRows(const Plan& plan, const Plant& plant) : plan_(plan), plant_(plant) {
-    for (const LegPlan& leg : plan.legs) motions_.emplace_back(leg, plant);
+  PlanRows(const Plan& plan, const Plant& plant) : plan_(plan) {
+    for (const LegPlan& leg : plan.legs) plants_.push_back(plant_in(plant, leg.state));
+    for (std::size_t k = 0; k < plants_.size(); ++k) motions_.emplace_back(plan.legs[k], plants_[k]);
   }
 
   const LegMotion& motion(std::size_t leg) const { return motions_[leg]; }
@@ -124,7 +125,7 @@ class PlanRows {
                                  : rows_.energy_J.back() +
                                        plan_energy_J(plan_, motions_, rows_.time_s.back(), time_s));
     const double before_rad = rows_.size() == 0 ? sample.site.pose.heading_rad : rows_.heading_rad.back();
-    joulepath::append(rows_, plant_, sample, time_s, payload_kg, leg);
+    joulepath::append(rows_, plants_[leg], sample, time_s, payload_kg, leg);
     double& heading_rad = rows_.heading_rad.back();
     heading_rad = before_rad + wrapped_angle_rad(heading_rad - before_rad);
   }
@@ -133,7 +134,7 @@ class PlanRows {
 
  private:
   const Plan& plan_;
-  const Plant& plant_;
+  std::vector<Plant> plants_{};  ///< of each leg
   std::vector<LegMotion> motions_{};
   Trajectory rows_{};
 };

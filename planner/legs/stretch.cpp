@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/battery_charge.hpp"
 #include "model/battery_power.hpp"
 #include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -49,6 +50,8 @@ void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_li
 Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
   Limits limits = limits_between_payloads(robot, payload.from_kg, payload.to_kg);
   limits.battery_power_W = std::min(limits.battery_power_W, planned_battery_power_W(robot.battery));
+  limits.battery_voltage_V = std::min(limits.battery_voltage_V, motor_supply_V(robot.battery));
+  limits.charge_power_W = std::min(limits.charge_power_W, most_charge_power_W(robot.battery));
   return limits;
 }
 

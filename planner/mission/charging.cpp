@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/battery_charge.hpp"
+#include "model/battery_power.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
 // Design: docs/decisions/0400-visits-and-charging.md
@@ -50,10 +52,11 @@ double charging_s(const MissionRequest& mission, const Plan& failed, const Plant
   const Battery& battery = plant.robot.battery;
   const BatteryAccount& account = *failed.battery;
   const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
-  const double missing_J = (mission.charging->to_fraction - before) * kJoulesPerWh * battery.capacity_Wh +
+  const double missing_J = energy_share_between(battery, before, mission.charging->to_fraction) *
+                               kJoulesPerWh * battery.capacity_Wh +
                            way_J(failed, plant, place_before(mission, leg), place_of(charger));
   const double power_W = charger.charger_W - plant.robot.power.standby_W;
-  const double stored_W = power_W - battery_load(battery, -power_W).loss_W;
+  const double stored_W = stored_power_W(battery, before, power_W);
   return stored_W > 0 ? std::max(0.0, missing_J) / stored_W : kNoLimit;
 }
 

@@ -4,14 +4,18 @@
 #include <cmath>
 
 #include "model/assert.hpp"
+#include "model/battery_charge.hpp"
 #include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "planner/accounts/winding_account.hpp"
 #include "planner/bound/path_bound.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/mission/charging.hpp"
+#include "planner/mission/drift.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/visit_order.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/profile/holding_limit.hpp"
 
 namespace joulepath {
@@ -37,6 +41,16 @@ double wait_of(const std::vector<ProfileResult>& results, double duration_s) {
   return wait_s > kNoWait * duration_s ? wait_s : 0.0;
 }
 
+/// The bound of a stretch that was solved with a price of heat is one on all profiles with no more heat: the
+/// price of the profile's own heat is taken out of it.
+void take_price_out(StretchPlan& stretch, const ProfileRequest& priced) {
+  stretch.summary.lower_bound_J -=
+      energy_by_cause(path_motion(priced), stretch.profile).motion_J() - stretch.energy.motion_J();
+  const double energy_J = stretch.energy.total_J();
+  stretch.summary.gap_percent =
+      100 * (energy_J - stretch.summary.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+}
+
 /// Replays and accounts for a leg's profiles.
 void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
                 double price_W, double duration_s, const UncertainPlant& uncertain,
@@ -57,7 +71,13 @@ void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
     if (k + 1 == results.size()) stretch.profile.wait_s += wait_s;
+    const ProfileRequest priced = stretch.request;
+    if (leg.state.price_of_heat > 0) {
+      stretch.request.plant = plant;
+      stretch.request.limits.battery_voltage_V = motor_supply_V(plant.robot.battery);
+    }
     account_for(stretch, uncertain, answers);
+    if (leg.state.price_of_heat > 0) take_price_out(stretch, priced);
     if (k + 1 == results.size()) bound_wait(stretch, wait_s, leg.price_of_time_W);
     leg.duration_s += stretch.profile.duration_s();
     leg.energy += stretch.energy;
@@ -86,15 +106,19 @@ struct TimedLegs {
 };
 /// `way_price_W`: the price at which ways are chosen, where it is not that of their times.
 TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
-                    const Plant& plant, const PlanOptions& options, std::optional<double> way_price_W,
-                    Plan& plan) {
+                    const Plant& plant, const PlanOptions& options, const std::vector<LegState>& states,
+                    std::optional<double> way_price_W, Plan& plan) {
   const double floor_W = lowest_price_W(mission.objective);
   std::vector<double> price_W(mission.legs.size(),
                               way_price_W.value_or(first_price_W(mission, world, plant)));
   TimedLegs timed;
-  const MissionWays ways(mission, world, space, plant, options);
+  // Ways are chosen for the hardest state of all legs.
+  const Plant way_plant = plant_in(plant, hardest(states));
+  std::optional<MissionWorld> drifted;
+  if (!states.empty()) drifted = world, drifted->robot = robot_in(world.robot, hardest(states));
+  const MissionWays ways(mission, drifted ? *drifted : world, space, way_plant, options);
   const auto choose = [&](bool quick) {
-    timed.prepared = prepare_legs(mission, world, plant, options, ways.choose(price_W, quick), plan);
+    timed.prepared = prepare_legs(mission, world, plant, options, states, ways.choose(price_W, quick), plan);
     bound_open_times(timed.prepared, mission);
     return plan.status == SolveStatus::optimal;
   };
@@ -173,11 +197,12 @@ void mark_as_draft(Plan& plan) {
   }
 }
 
-/// Plans the legs as given, in their order; `plan` contains what is already known about the mission.
-Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
-                     const RouteSpace* space, const Plant& plant, Plan plan,
-                     std::optional<double> way_price_W = {}) {
-  TimedLegs timed = time_legs(mission, world, space, plant, options, way_price_W, plan);
+/// Plans the legs as given, in their order, each in its state (none: the robot as it is); `plan` contains
+/// what is already known about the mission.
+Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                    const RouteSpace* space, const Plant& plant, const std::vector<LegState>& states,
+                    Plan plan, std::optional<double> way_price_W) {
+  TimedLegs timed = time_legs(mission, world, space, plant, options, states, way_price_W, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   if (auto verdict = too_late(timed, mission))
     return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
@@ -192,23 +217,40 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   for (std::size_t k = 0; k < legs.size(); ++k)
     if (!all_driven(k, timing[k].stretches(), results[k], plan)) return plan;
   const UncertainPlant uncertain_plant = uncertain(plant);
+  const auto plant_on = [&](std::size_t k) { return uncertain(plant_in(plant, states[k])); };
   for_each_index(legs.size(), options.threads, [&](std::size_t k) {
     legs[k].start_s = k == 0 ? 0.0 : split.arrival_s[k - 1] + legs[k - 1].dwell_s;
     // A robot that arrives before the stop's window opens waits there: the wait is part of the leg.
     const double duration_s = std::max(split.duration_s[k], split.arrival_s[k] - legs[k].start_s);
-    finish_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
-               options.answers);
+    finish_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s,
+               states.empty() ? uncertain_plant : plant_on(k), options.answers);
   });
   plan.legs = std::move(legs);
   sum_up(plan, plant, options.accuracy);
   if (options.draft) mark_as_draft(plan);
   plan.battery = battery_account(plan, uncertain_plant, mission.start.battery_fraction.value_or(1.0),
                                  mission.charging ? mission.charging->to_fraction : 0.0);
+  plan.winding = winding_account(plan, plant);
   if (auto reason = battery_too_small(plan, plant)) {
     const std::size_t leg = *plan.battery->fails_on_leg;
     plan = infeasible(std::move(plan), leg, 0.0, std::move(*reason));
+  } else if (auto heat = winding_too_hot(plan)) {
+    const std::size_t leg = *plan.winding->fails_on_leg;
+    plan = infeasible(std::move(plan), leg, 0.0, std::move(*heat));
   }
   return plan;
+}
+
+/// Plans the legs as given, in their order, with the charge and the temperatures that the plan itself leads
+/// to.
+Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                     const RouteSpace* space, const Plant& plant, const Plan& known,
+                     std::optional<double> way_price_W = {}) {
+  if (!drifts(world.robot))
+    return plan_in_states(mission, world, options, space, plant, {}, known, way_price_W);
+  return settled_plan(mission, world.robot, [&](const std::vector<LegState>& states) {
+    return plan_in_states(mission, world, options, space, plant, states, known, way_price_W);
+  });
 }
 
 const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* space) {
@@ -312,10 +354,23 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const Plant plant = make_plant(world.robot);
   const bool visits = !asked.visit.empty() && asked.legs.empty();
   if (!visits && asked.legs.empty()) refuse_empty(asked);
-  const auto planned = [&](const MissionWorld& in, const Plant& by) {
-    return (visits ? plan_stops : plan_with_stops)(asked, in, options, space, by, known);
+  const auto planned = [&](const MissionRequest& mission, const MissionWorld& in, const Plant& by) {
+    return (visits ? plan_stops : plan_with_stops)(mission, in, options, space, by, known);
   };
-  Plan answer = planned(world, plant);
+  Plan answer = planned(asked, world, plant);
+  offer_charge(answer, world.robot, asked.start.battery_fraction.value_or(1.0), [&](double fraction) {
+    MissionRequest fuller = asked;
+    fuller.start.battery_fraction = fraction;
+    return planned(fuller, world, plant).status <= SolveStatus::feasible;
+  });
+  offer_capacity(answer, world.robot, [&](double capacity_Wh) {
+    MissionWorld other = world;
+    other.robot.battery.capacity_Wh = capacity_Wh;
+    return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
+  });
+  offer_cooling(answer, asked, [&](const MissionRequest& mission) {
+    return planned(mission, world, plant).status <= SolveStatus::feasible;
+  });
   if (answer.infeasibility && answer.infeasibility->reason.constraint == "battery_power") {
     const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
     // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
@@ -323,7 +378,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     blame_battery(answer, world.robot, payload, [&](double resistance_ohm) {
       MissionWorld other = world;
       other.robot.battery.internal_resistance_ohm = resistance_ohm;
-      return planned(other, make_plant(other.robot)).status <= SolveStatus::feasible;
+      return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
     });
   }
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);

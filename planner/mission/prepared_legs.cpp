@@ -54,36 +54,52 @@ void check_joint(const MissionRequest& mission, std::size_t k) {
 class LegPreparation {
  public:
   LegPreparation(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
-                 const PlanOptions& options)
-      : mission_(mission), world_(world), plant_(plant), options_(options), here_(mission.start.pose) {}
+                 const PlanOptions& options, const std::vector<LegState>& states)
+      : mission_(mission),
+        world_(world),
+        plant_(plant),
+        options_(options),
+        states_(states),
+        here_(mission.start.pose) {}
 
   /// The reason why the leg cannot be driven, where it needs no solver.
   std::optional<Infeasibility> add(std::size_t k, LegPath way) {
-    const LegRequest& leg = mission_.legs[k];
-    check_joint(mission_, k);
-    if (auto reason = payload_too_heavy(world_.robot, leg, here_)) return reason;
-    if (way.infeasibility) return std::move(way.infeasibility);
-    const bool drives = leg.motion || !way.path.pieces.empty();
-    if (drives || charger_W(leg) < world_.robot.power.standby_W)
-      if (auto reason = battery_too_weak(world_.robot, here_)) return reason;
-    if (leg.motion) return add_prescribed(leg, k);
-    add_path(leg, k, std::move(way));
-    return std::nullopt;
+    if (states_.empty()) return add_to(world_, plant_, k, std::move(way));
+    const MissionWorld there{.robot = robot_in(world_.robot, states_[k]), .speed_mask = world_.speed_mask};
+    return add_to(there, plant_in(plant_, states_[k]), k, std::move(way));
   }
 
   PreparedLegs legs() && { return std::move(prepared_); }
 
  private:
-  std::optional<Infeasibility> add_prescribed(const LegRequest& leg, std::size_t k) {
+  std::optional<Infeasibility> add_to(const MissionWorld& world, const Plant& plant, std::size_t k,
+                                      LegPath way) {
+    const LegRequest& leg = mission_.legs[k];
+    check_joint(mission_, k);
+    if (auto reason = payload_too_heavy(world.robot, leg, here_)) return reason;
+    if (way.infeasibility) return std::move(way.infeasibility);
+    const bool drives = leg.motion || !way.path.pieces.empty();
+    if (drives || charger_W(leg) < world.robot.power.standby_W)
+      if (auto reason = battery_too_weak(world.robot, here_)) return reason;
+    if (leg.motion) return add_prescribed(leg, world, plant, k);
+    add_path(leg, world, plant, k, std::move(way));
+    return std::nullopt;
+  }
+
+  LegState state_of(std::size_t k) const { return states_.empty() ? LegState{} : states_[k]; }
+
+  std::optional<Infeasibility> add_prescribed(const LegRequest& leg, const MissionWorld& world,
+                                              const Plant& plant, std::size_t k) {
     prepared_.timing.emplace_back(std::vector<ProfileRequest>{});
-    LegPlan& plan = prepared_.legs.emplace_back(prescribed_leg(leg, plant_, here_));
+    LegPlan& plan = prepared_.legs.emplace_back(prescribed_leg(leg, plant, here_));
     plan.start_pose = here_;
     plan.memory = memory_;
-    if (auto reason = broken_limit(plan, k, mission_, world_, plant_)) return reason;
+    plan.state = state_of(k);
+    if (auto reason = broken_limit(plan, k, mission_, world, plant)) return reason;
     begin_at(here_);
     const double end_s = plan.prescribed->time_s.back();
     here_ = sampled_state(*plan.prescribed, end_s).pose;
-    memory_ = prescribed_motion(plan, plant_).memory(end_s);
+    memory_ = prescribed_motion(plan, plant).memory(end_s);
     return std::nullopt;
   }
 
@@ -93,15 +109,21 @@ class LegPreparation {
     return station == mission_.stations.end() ? 0.0 : station->second.charger_W;
   }
 
-  void add_path(const LegRequest& leg, std::size_t k, LegPath way) {
-    prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world_, plant_, options_, memory_),
+  void add_path(const LegRequest& leg, const MissionWorld& world, const Plant& plant, std::size_t k,
+                LegPath way) {
+    const Plant priced = states_.empty() ? plant : priced_plant_in(plant_, states_[k]);
+    prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world, priced, options_, memory_),
                                   options_.answers);
+    if (state_of(k).price_of_heat > 0)
+      for (ProfileRequest& stretch : prepared_.timing.back().stretches())
+        stretch.limits.battery_voltage_V = kNoLimit;
     prepared_.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                               .path_source = way.source,
                               .payload = leg.payload,
                               .parts = leg.parts,
                               .start_pose = here_,
                               .memory = memory_,
+                              .state = state_of(k),
                               .dwell_s = leg.dwell_s,
                               .distance_m = way.path.distance_m(),
                               .turned_rad = way.path.turned_rad(),
@@ -124,6 +146,7 @@ class LegPreparation {
   const MissionWorld& world_;
   const Plant& plant_;
   const PlanOptions& options_;
+  const std::vector<LegState>& states_;
   Pose here_;
   bool moved_{};
   EffectMemory memory_{};
@@ -146,8 +169,9 @@ Plan failed(Plan plan, std::string reason) {
 }
 
 PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
-                          const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
-  LegPreparation preparation(mission, world, plant, options);
+                          const PlanOptions& options, const std::vector<LegState>& states,
+                          std::vector<LegPath> paths, Plan& plan) {
+  LegPreparation preparation(mission, world, plant, options, states);
   for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k)
     if (auto reason = preparation.add(k, std::move(paths[k]))) {
       const double s_m = reason->s;

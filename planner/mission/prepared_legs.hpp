@@ -19,11 +19,13 @@ struct PreparedLegs {
 /// Makes the plan a failure of the solvers.
 [[nodiscard]] Plan failed(Plan plan, std::string reason);
 
-/// Profile requests of all legs along their paths. If a leg has no path, or cannot be driven for another
-/// reason that needs no solver, the plan becomes the verdict and the legs are incomplete.
+/// Profile requests of all legs along their paths, each in its state (none: the robot as it is). If a leg has
+/// no path, or cannot be driven for another reason that needs no solver, the plan becomes the verdict and the
+/// legs are incomplete.
 [[nodiscard]] PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world,
                                         const Plant& plant, const PlanOptions& options,
-                                        std::vector<LegPath> paths, Plan& plan);
+                                        const std::vector<LegState>& states, std::vector<LegPath> paths,
+                                        Plan& plan);
 
 /// Speeds at the ends of a leg are speeds of driving: throws ConfigError for a speed above 0 if the leg
 /// begins or ends with a turn in place there.

@@ -213,6 +213,27 @@ Sided<WheelPower> PlaceCost::wheels_at(double u) const {
   });
 }
 
+/// A wheel's voltage V and the battery's sag stay below the open-circuit voltage U. Where V is above U/2 that
+/// is V (U - V) >= R_i P, with P at least the sum of the motors' power and standby.
+void PlaceCost::cut_by_sag(Range& range, const Sided<WheelPower>& wheels, Side side, double open_V) const {
+  const Robot& robot = model_->unbent.robot;
+  const double R = robot.battery.internal_resistance_ohm;
+  for (const double sign : {1.0, -1.0}) {
+    const Line V = sign * wheels[side].voltage_V;
+    const Quadratic power = sum(R, wheels.left.below, R, wheels.right.below);
+    const Quadratic own = V * V;
+    const Quadratic excess{own.c0 - open_V * V.at_0 + power.c0 + R * robot.power.standby_W,
+                           own.c1 - open_V * V.slope + power.c1, own.c2 + power.c2};
+    if (!(excess.c2 > 0) || V.slope == 0) continue;
+    const auto [x, y] = roots(excess);
+    if (std::isnan(x) || std::isnan(y)) continue;
+    const double end = V.slope > 0 ? std::max(x, y) : std::min(x, y);
+    if (V(end) < 0.5 * open_V) continue;
+    (V.slope > 0 ? range.high : range.low) =
+        V.slope > 0 ? std::min(range.high, end) : std::max(range.low, end);
+  }
+}
+
 /// The limits that are linear in the acceleration of the path.
 Range PlaceCost::accelerations(double u, const Sided<WheelPower>& wheels) const {
   const Limits& limits = model_->request.limits;
@@ -242,7 +263,10 @@ void PlaceCost::cut_by_ratings(Range& range, const Sided<WheelPower>& wheels) co
     if (!model_->warms_up) cut(range, wheel.voltage_V, robot.motor[side].max_voltage_V);
     cut_above(range, wheel.below, limits.motor_power_W);
   }
-  if (!std::isfinite(limits.battery_power_W) || wheels.left.bent() || wheels.right.bent()) return;
+  if (wheels.left.bent() || wheels.right.bent()) return;
+  if (!model_->warms_up && std::isfinite(limits.battery_voltage_V))
+    for (Side side : kSides) cut_by_sag(range, wheels, side, limits.battery_voltage_V);
+  if (!std::isfinite(limits.battery_power_W)) return;
   const double most_W = limits.battery_power_W - robot.power.standby_W;
   const double eta = robot.power.regeneration_efficiency;
   const Quadratic &left = wheels.left.below, &right = wheels.right.below;

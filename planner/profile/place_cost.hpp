@@ -54,6 +54,7 @@ class PlaceCost {
   Sided<WheelPower> wheels_at(double u) const;
   nlp::Range accelerations(double u, const Sided<WheelPower>& wheels) const;
   void cut_by_ratings(nlp::Range& range, const Sided<WheelPower>& wheels) const;
+  void cut_by_sag(nlp::Range& range, const Sided<WheelPower>& wheels, Side side, double open_V) const;
 
   const CostModel* model_{};
   PathRates rates_{};

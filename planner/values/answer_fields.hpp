@@ -51,9 +51,10 @@ void each_field(Archive& archive, EnergyByCause& value) {
 template <class Archive>
 void each_field(Archive& archive, Limits& value) {
   auto& [speed, acceleration, deceleration, lateral, yaw_rate, yaw_acceleration, wheel_acceleration, jerk,
-         traction, motor_power, battery_power, max_payload, reverse_speed] = value;
+         traction, motor_power, battery_power, max_payload, reverse_speed, battery_voltage, charge_power] =
+      value;
   archive(speed, acceleration, deceleration, lateral, yaw_rate, yaw_acceleration, wheel_acceleration, jerk,
-          traction, motor_power, battery_power, max_payload, reverse_speed);
+          traction, motor_power, battery_power, max_payload, reverse_speed, battery_voltage, charge_power);
 }
 
 template <class Archive>
@@ -74,13 +75,15 @@ void each_field(Archive& archive, TimeGoal& value) {
   archive(mode, duration_s, price_W);
 }
 
-/// Used for questions only. The plant is left out, because SharedAnswers::world identifies the robot of the
-/// plant.
+/// Used for questions only. Of the plant only what drifts over a mission is in it (LegState): SharedAnswers::
+/// world identifies its robot.
 inline void each_field(ByteWriter& archive, ProfileRequest& value) {
   auto& [piece, plant, limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
          draft, time_of_day_s, memory] = value;
+  const Robot& robot = plant.robot;
   archive(record_of(piece), limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
-          draft, time_of_day_s, memory);
+          draft, time_of_day_s, memory, robot.battery.open_circuit_voltage_V, robot.motor.left.resistance_ohm,
+          robot.motor.right.resistance_ohm);
 }
 
 }  // namespace joulepath

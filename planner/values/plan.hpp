@@ -8,6 +8,7 @@
 
 #include "model/energy.hpp"
 #include "planner/values/baseline_result.hpp"
+#include "planner/values/leg_state.hpp"
 #include "planner/values/mission_request.hpp"
 #include "planner/values/profile.hpp"
 #include "planner/values/profile_request.hpp"
@@ -84,6 +85,7 @@ struct LegPlan {
   double start_s{};                        ///< departure, from the mission's start
   Pose start_pose{};                       ///< where the robot stands then; a leg without motion stays there
   EffectMemory memory{};                   ///< of the effects, at the departure
+  LegState state{};                        ///< of battery and windings, as its motion was planned
   double duration_s{};                     ///< driving
   double dwell_s{};
   double distance_m{};
@@ -132,6 +134,23 @@ struct BatteryAccount {
   double lowest_voltage_V{};
   std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the charge falls below the reserve
   std::vector<double> fraction_after_leg{};
+  /// With a curve: the least state of charge on each leg, and the greatest difference of the open-circuit
+  /// voltage on a leg from the one that its motion was planned with.
+  std::vector<double> least_fraction_on_leg{};
+  std::optional<double> voltage_error_V{};
+};
+
+/// Temperatures of the windings over a plan.
+struct WindingAccount {
+  double highest_C{};
+  Side side{};                                ///< of the highest temperature
+  double above_limit_K{};                     ///< negative where the limit is kept
+  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which a winding is too hot
+  double fails_at_s{};                        ///< from the mission's start
+  double price_of_heat{};                     ///< the greatest of the legs
+  std::vector<Sided<double>> hottest_on_leg_C{};
+  std::vector<Sided<double>> after_leg_C{};               ///< after its dwell
+  std::vector<Sided<double>> resistance_factor_on_leg{};  ///< mean by copper loss
 };
 
 /// The result for a mission.
@@ -155,6 +174,7 @@ struct Plan {
   double worst_violation{};
   std::string worst_limit{};
   std::optional<BatteryAccount> battery{};
+  std::optional<WindingAccount> winding{};  ///< absent: the motors state no `thermal`
   std::optional<VisitOrder> visit{};
   std::optional<PathBound> path_bound{};  ///< absent: not asked for
   std::vector<BaselineTotal> baselines{};

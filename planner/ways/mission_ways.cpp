@@ -88,7 +88,9 @@ std::vector<LegPath> MissionWays::choose_together(const Together& legs, const st
     return choose_run(run);
   };
   return remembered(options_.answers, "ways", compute, quick, legs.start, questions, options_.steps,
-                    options_.nodes, options_.accuracy, options_.seed);
+                    options_.nodes, options_.accuracy, options_.seed,
+                    plant_.robot.battery.open_circuit_voltage_V, plant_.robot.motor.left.resistance_ohm,
+                    plant_.robot.motor.right.resistance_ohm);
 }
 
 LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {

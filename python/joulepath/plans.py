@@ -66,6 +66,16 @@ class Plan(Value):
         return None if bound is None else float(bound)
 
     @property
+    def battery(self) -> Record | None:
+        """State of charge over the legs, as plan.json has it; None where the robot file states no capacity."""
+        return self.json.get("battery")
+
+    @property
+    def winding(self) -> Record | None:
+        """Temperatures of the windings over the legs, as plan.json has them; None where the motors state no ``thermal``."""
+        return self.json.get("winding")
+
+    @property
     def duration_s(self) -> float:
         """Driving, waiting and dwell."""
         return float(self.json.duration_s)

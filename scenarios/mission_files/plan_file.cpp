@@ -171,8 +171,27 @@ Json battery_json(const BatteryAccount& battery) {
             {"missions_per_charge", battery.missions_per_charge},
             {"lowest_voltage_V", number(battery.lowest_voltage_V)},
             {"fraction_after_leg", battery.fraction_after_leg}};
+  if (battery.voltage_error_V) json["voltage_error_V"] = *battery.voltage_error_V;
   json["fails_on_leg"] = battery.fails_on_leg ? Json(*battery.fails_on_leg) : Json(nullptr);
   return json;
+}
+
+Json sided_json(const Sided<double>& value) { return {{"left", value.left}, {"right", value.right}}; }
+
+Json sided_list_json(const std::vector<Sided<double>>& values) {
+  Json list = Json::array();
+  for (const Sided<double>& value : values) list.push_back(sided_json(value));
+  return list;
+}
+
+Json winding_json(const WindingAccount& winding) {
+  return {{"highest_C", winding.highest_C},
+          {"side", side_name(winding.side)},
+          {"above_limit_K", winding.above_limit_K},
+          {"price_of_heat", winding.price_of_heat},
+          {"highest_on_leg_C", sided_list_json(winding.hottest_on_leg_C)},
+          {"after_leg_C", sided_list_json(winding.after_leg_C)},
+          {"resistance_factor_on_leg", sided_list_json(winding.resistance_factor_on_leg)}};
 }
 
 Json infeasibility_json(const PlanInfeasibility& verdict) {
@@ -208,6 +227,7 @@ void add_results(const Plan& plan, Json& json) {
                     {"worst_violation", plan.worst_violation},
                     {"limit", plan.worst_limit}};
   if (plan.battery) json["battery"] = battery_json(*plan.battery);
+  if (plan.winding) json["winding"] = winding_json(*plan.winding);
   if (plan.visit)
     json["visit"] = {{"order", plan.visit->order},
                      {"exact", plan.visit->exact},

@@ -87,11 +87,27 @@ Schema leg_result_schema() {
 }
 
 Schema battery_result_schema() {
-  return open(map({required("start_fraction", result()), required("end_fraction", result()),
-                   required("interval_95", nullable(interval()), "of the end fraction; null: unknown"),
-                   required("required_capacity_Wh", result(),
-                            "95 % upper bound where the interval holds the model's error"),
-                   required("missions_per_charge", result())}));
+  return open(
+      map({required("start_fraction", result()), required("end_fraction", result()),
+           required("interval_95", nullable(interval()), "of the end fraction; null: unknown"),
+           required("required_capacity_Wh", result(),
+                    "95 % upper bound where the interval holds the model's error"),
+           required("missions_per_charge", result()),
+           optional("voltage_error_V", result(),
+                    "with an open-circuit curve: how far the voltage on a leg is at most from the one "
+                    "at its least charge, with which the leg was planned")}));
+}
+
+Schema winding_result_schema() {
+  const Schema sides = open(map({required("left", number()), required("right", number())}));
+  return open(map({required("highest_C", result()), required("side", choice({"left", "right"})),
+                   required("above_limit_K", result(), "negative: that much below max_winding_C"),
+                   required("price_of_heat", result(),
+                            "joules that a joule of copper loss counted beside itself, so that the limit is "
+                            "kept; with it bounds are those of plans with no more heat"),
+                   required("highest_on_leg_C", list(sides)), required("after_leg_C", list(sides)),
+                   required("resistance_factor_on_leg", list(sides),
+                            "of the copper relative to the cold one, with which the leg was planned")}));
 }
 
 Schema infeasibility_schema() {
@@ -224,6 +240,7 @@ Schema plan_schema() {
        optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
                                     required("limit", text())}))),
        optional("battery", battery_result_schema()),
+       optional("winding", winding_result_schema()),
        optional("legs", list(leg_result_schema())),
        optional("baselines", baselines_schema()),
        optional("infeasibility", infeasibility_schema())}));

@@ -65,6 +65,15 @@ void check_footprint(const Node& polygon, const std::vector<Corner>& corners) {
                                       "two corners may be swapped");
 }
 
+/// The heat of the windings is stated once.
+void check_heat(const Node& root, const Robot& robot) {
+  if (!robot.motor.left.thermal) return;
+  for (const EffectSetting& effect : robot.effects)
+    if (effect.name == "winding_heating")
+      root["effects"].fail_found("winding_heating beside motor.thermal", "one of both",
+                                 "both are the law of the same winding");
+}
+
 /// Ray casting, edges not included.
 bool is_inside(const Footprint& footprint, double x_m, double y_m) {
   if (footprint.polygon_m.empty()) return std::hypot(x_m, y_m) <= footprint.radius_m;
@@ -89,6 +98,7 @@ void check_robot(const Node& root, const Robot& robot) {
         "0.5 to 1.1 times the voltage constant (" + four_digits(motor.voltage_constant_V_s_rad) + " V s/rad)",
         units_mixed_up(motor));
   }
+  check_heat(root, robot);
   if (const auto footprint = root.find("footprint"))
     if (const auto polygon = footprint->find("polygon_m"))
       check_footprint(*polygon, robot.footprint.polygon_m);

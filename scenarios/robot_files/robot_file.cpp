@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "model/battery_charge.hpp"
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"
@@ -54,13 +55,25 @@ Sided<Motor> read_motors(const Node& node) {
       const Sided<double> values = read_sided(*value);
       for (const Side side : kSides) motors[side].*key.field = values[side];
     }
+  if (const auto thermal = node.find("thermal"))
+    for (const Side side : kSides) motors[side].thermal = read_thermal(*thermal);
   return motors;
+}
+
+WindingThermal read_thermal(const Node& node) {
+  const WindingThermal thermal{.resistance_K_W = node["resistance_K_W"].number(),
+                               .capacity_J_K = node["capacity_J_K"].number(),
+                               .max_winding_C = node["max_winding_C"].number(),
+                               .ambient_C = node["ambient_C"].number()};
+  if (thermal.max_winding_C <= thermal.ambient_C)
+    node["max_winding_C"].fail("a temperature above ambient_C", "the winding begins at ambient_C");
+  return thermal;
 }
 
 Limits read_limits(const Node& node) {
   Limits limits;
   for (const Limit& limit : kLimits)
-    if (limit.field != nullptr) limits.*limit.field = node.number_or(limit.key, kNoLimit);
+    if (limit.field != nullptr && limit.in_limits) limits.*limit.field = node.number_or(limit.key, kNoLimit);
   return limits;
 }
 
@@ -84,11 +97,32 @@ PowerSupply read_power(const Node& node) {
           .sharing = node.text_or("sharing", "wheel") == "bus" ? PowerSharing::bus : PowerSharing::wheel};
 }
 
+/// The points of a battery's open-circuit curve, both values rising.
+std::vector<OpenCircuitPoint> read_open_circuit_curve(const Node& node) {
+  std::vector<OpenCircuitPoint> curve;
+  for (const Node& item : node.items()) {
+    const OpenCircuitPoint point{item["fraction"].number(), item["V"].number()};
+    if (!curve.empty() && point.fraction <= curve.back().fraction)
+      item["fraction"].fail("a fraction above that of the point before", "sort the points by fraction");
+    if (!curve.empty() && point.voltage_V <= curve.back().voltage_V)
+      item["V"].fail("a voltage above that of the point before", "the voltage rises with the charge");
+    curve.push_back(point);
+  }
+  return curve;
+}
+
 Battery read_battery(const Node& node) {
-  return {.capacity_Wh = node.number_or("capacity_Wh", kNoLimit),
-          .open_circuit_voltage_V = node.number_or("open_circuit_voltage_V", kNoLimit),
-          .internal_resistance_ohm = node.number_or("internal_resistance_ohm", 0.0),
-          .reserve_fraction = node.number_or("reserve_fraction", 0.0)};
+  Battery battery{.capacity_Wh = node.number_or("capacity_Wh", kNoLimit),
+                  .open_circuit_voltage_V = node.number_or("open_circuit_voltage_V", kNoLimit),
+                  .internal_resistance_ohm = node.number_or("internal_resistance_ohm", 0.0),
+                  .reserve_fraction = node.number_or("reserve_fraction", 0.0),
+                  .max_charge_current_A = node.number_or("max_charge_current_A", kNoLimit)};
+  const auto curve = node.find("open_circuit_voltage");
+  if (!curve) return battery;
+  if (const auto constant = node.find("open_circuit_voltage_V"))
+    constant->fail_found("a constant beside the curve open_circuit_voltage", "one of both");
+  battery.open_circuit_curve = read_open_circuit_curve(*curve);
+  return at_charge(std::move(battery), 1.0);
 }
 
 Footprint read_footprint(const Node& node) {

@@ -29,6 +29,15 @@ Schema inertia_schema() {
        required("wheel_diameter_inertia_kg_m2", number(kNotNegative), "wheel and rotor about a diameter")});
 }
 
+Schema thermal_schema() {
+  return map({required("resistance_K_W", number({0.0, 1e4, true}), "from the winding to the surroundings"),
+              required("capacity_J_K", number({0.0, 1e7, true}), "of the winding"),
+              required("max_winding_C", number({-50, 400}), "above ambient_C; kept by plans"),
+              required("ambient_C", number({-50, 150}),
+                       "of the surroundings, and of the cold motor that has "
+                       "resistance_ohm; a mission begins with it")});
+}
+
 Schema motor_schema() {
   const Schema positive = sided(number(kPositive)), not_negative = sided(number(kNotNegative));
   return map({required("gear_ratio", positive, "motor turns per wheel turn"),
@@ -40,14 +49,16 @@ Schema motor_schema() {
               required("friction_torque_Nm", not_negative, "Coulomb friction, seen at the wheel"),
               optional("max_voltage_V", positive, "absent: no limit"),
               optional("max_current_A", positive, "absent: no limit"),
-              optional("inductance_H", not_negative, "only the simulator uses it; default 0")});
+              optional("inductance_H", not_negative, "only the simulator uses it; default 0"),
+              optional("thermal", thermal_schema(),
+                       "one thermal node per motor: the copper resistance follows its temperature")});
 }
 
 /// Keys of `limits:`, or of a row of `by_payload`.
 std::vector<Schema::Key> limit_schema_keys(bool by_payload) {
   std::vector<Schema::Key> keys;
   for (const Limit& limit : kLimits)
-    if (limit.field != nullptr && (limit.by_payload || !by_payload))
+    if (limit.field != nullptr && limit.in_limits && (limit.by_payload || !by_payload))
       keys.push_back(optional(std::string(limit.key), number(limit.may_be_zero ? kNotNegative : kPositive),
                               std::string(limit.meaning) + (by_payload ? "; absent: as outside of by_payload"
                                                                        : "; absent: no limit")));
@@ -73,9 +84,17 @@ Schema power_schema() {
 }
 
 Schema battery_schema() {
+  const Schema point = map({required("fraction", number(kFraction), "state of charge"),
+                            required("V", number(kPositive), "open-circuit voltage there")});
   return map(
-      {optional("capacity_Wh", number(kPositive)), optional("open_circuit_voltage_V", number(kPositive)),
+      {optional("capacity_Wh", number(kPositive)),
+       optional("open_circuit_voltage_V", number(kPositive), "the same at every charge"),
+       optional("open_circuit_voltage", list(point, 2),
+                "by state of charge, both rising; linear between the points, constant beyond; the motors' "
+                "voltage is then limited by the battery's; instead of open_circuit_voltage_V"),
        optional("internal_resistance_ohm", number(kNotNegative), "default 0"),
+       optional("max_charge_current_A", number(kPositive),
+                "into the battery, braking and at chargers; absent: no limit"),
        optional("reserve_fraction", number({0.0, 0.99}), "of the capacity that must remain; default 0")});
 }
 
@@ -91,7 +110,8 @@ Schema uncertainty_schema() {
   for (const Schema& section :
        {geometry_schema(), inertia_schema(), motor_schema(), power_schema(), battery_schema()})
     for (const auto& key : section.keys)
-      if (key.name != "sharing") keys.push_back(optional(key.name, number(kFraction)));
+      if (key.schema.kind == Schema::Kind::number || key.schema.kind == Schema::Kind::any_of)
+        keys.push_back(optional(key.name, number(kFraction)));
   keys.push_back(optional("payload_kg", number(kFraction)));
   keys.push_back(optional("model_energy", number(kFraction),
                           "of the model itself: relative 1-sigma of a mission's energy of motion"));

@@ -33,6 +33,13 @@ class Section {
   std::string body_{};
 };
 
+std::string thermal_text(const WindingThermal& thermal) {
+  return "{resistance_K_W: " + number_text(thermal.resistance_K_W) +
+         ", capacity_J_K: " + number_text(thermal.capacity_J_K) +
+         ", max_winding_C: " + number_text(thermal.max_winding_C) +
+         ", ambient_C: " + number_text(thermal.ambient_C) + "}";
+}
+
 std::string motor_line(const Sided<Motor>& motor) {
   Section section("motor");
   const auto add = [&](std::string_view key, double Motor::*field) {
@@ -49,6 +56,7 @@ std::string motor_line(const Sided<Motor>& motor) {
   add("max_current_A", &Motor::max_current_A);
   if (motor.left.inductance_H != 0.0 || motor.right.inductance_H != 0.0)
     add("inductance_H", &Motor::inductance_H);
+  if (motor.left.thermal) section.raw("thermal", thermal_text(*motor.left.thermal));
   return section.line();
 }
 
@@ -56,7 +64,7 @@ std::string limits_line(const Robot& robot) {
   if (!robot.limits) return "";
   Section section("limits");
   for (const Limit& limit : kLimits)
-    if (limit.field != nullptr) section.number(limit.key, (*robot.limits).*limit.field);
+    if (limit.field != nullptr && limit.in_limits) section.number(limit.key, (*robot.limits).*limit.field);
   std::string rows;
   for (const auto& row : robot.limits_by_payload) {
     rows += (rows.empty() ? "{payload_kg: " : ", {payload_kg: ") + number_text(row.payload_kg);
@@ -66,6 +74,23 @@ std::string limits_line(const Robot& robot) {
   if (!rows.empty()) section.raw("by_payload", "[" + rows + "]");
   const std::string line = section.line();
   return line.empty() ? "limits: {}\n" : line;
+}
+
+std::string battery_line(const Battery& battery) {
+  Section section("battery");
+  section.number("capacity_Wh", battery.capacity_Wh);
+  std::string points;
+  for (const OpenCircuitPoint& point : battery.open_circuit_curve)
+    points += (points.empty() ? "{fraction: " : ", {fraction: ") + number_text(point.fraction) +
+              ", V: " + number_text(point.voltage_V) + "}";
+  if (points.empty())
+    section.number("open_circuit_voltage_V", battery.open_circuit_voltage_V);
+  else
+    section.raw("open_circuit_voltage", "[" + points + "]");
+  return section.number("internal_resistance_ohm", battery.internal_resistance_ohm)
+      .number("max_charge_current_A", battery.max_charge_current_A)
+      .number("reserve_fraction", battery.reserve_fraction)
+      .line();
 }
 
 std::string footprint_line(const Footprint& footprint) {
@@ -116,12 +141,7 @@ std::string robot_text(const Robot& robot) {
               .number("regeneration_efficiency", robot.power.regeneration_efficiency)
               .raw("sharing", robot.power.sharing == PowerSharing::bus ? "bus" : "wheel")
               .line();
-  text += Section("battery")
-              .number("capacity_Wh", robot.battery.capacity_Wh)
-              .number("open_circuit_voltage_V", robot.battery.open_circuit_voltage_V)
-              .number("internal_resistance_ohm", robot.battery.internal_resistance_ohm)
-              .number("reserve_fraction", robot.battery.reserve_fraction)
-              .line();
+  text += battery_line(robot.battery);
   text += footprint_line(robot.footprint);
   if (!robot.effects.empty()) text += "effects:\n";
   for (const auto& effect : robot.effects) text += effect_line(effect);

@@ -141,8 +141,20 @@ jp.battery_section = function (plan) {
     h("p", {}, [`From ${fraction(battery.start_fraction, 5)} to ${fraction(battery.end_fraction, 5)}. `, interval ? `95 % interval of the end: ${fraction(interval[0], 5)} to ${fraction(interval[1], 5)}. ` : "", typeof plan.uncertainty === "string" ? `Uncertainty ${plan.uncertainty}. ` : "",
       is_number(battery.required_capacity_Wh) ? `Capacity needed: ${with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
       is_number(battery.missions_per_charge) ? `Missions per charge: ${short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
+      is_number(battery.voltage_error_V) ? `Each leg is planned with the voltage at its least charge, at most ${with_unit(battery.voltage_error_V, "V", 2)} below the open-circuit curve. ` : "",
       battery.charged_J > 0 ? `Charged on the way: ${with_unit(battery.charged_J, "J")}. ` : "",
       is_number(plan.battery_loss_J) ? `Lost inside the battery: ${with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
+};
+
+/** The temperatures of the windings, leg by leg. */
+jp.winding_section = function (plan) {
+  const winding = plan.winding;
+  if (!winding || !is_number(winding.highest_C)) return null;
+  const both = (list, leg) => [{n: number(list[leg].left, 4)}, {n: number(list[leg].right, 4)}];
+  return jp.section("Windings",
+    h("p", {}, `Up to ${with_unit(winding.highest_C, "°C")} (${winding.side}), ${with_unit(-winding.above_limit_K, "K", 3)} below the limit.` + (winding.price_of_heat > 0 ? ` The plan is slower for it: a joule of copper loss counts ${number(1 + winding.price_of_heat, 3)} times.` : "")),
+    jp.table(["leg", {n: "hottest left °C"}, {n: "right"}, {n: "after the stop left °C"}, {n: "right"}],
+      (plan.legs || []).map((leg, k) => [`${k} ${leg.to}`, ...both(winding.highest_on_leg_C, k), ...both(winding.after_leg_C, k)])));
 };
 
 /** What each gap means, for readers who know neither. */
@@ -218,5 +230,5 @@ jp.draw_plan = function (data) {
   const plan = data.plan, good = plan.status === "optimal" || plan.status === "feasible", motion = good ? jp.motion_section(data) : null;
   const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.station_marks(data, {}, []), whole: true, label: "Map with the place of the problem"}).element : null;
   jp.page(jp.header(data.title || "Plan", data.subtitle || "Energy-optimal plan", plan.status, good), jp.infeasibility_box(plan), good ? jp.plan_tiles(plan, data.savings || []) : null,
-    motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.battery_section(plan), jp.trust_section(plan));
+    motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.battery_section(plan), jp.winding_section(plan), jp.trust_section(plan));
 };

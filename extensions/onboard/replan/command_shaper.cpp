@@ -24,7 +24,9 @@ double least_to_stand(double v, double jerk_m_s3, double period_s) {
 }
 
 /// Limits of the drives, as opposed to those of the body's motion.
-bool is_of_drives(const Limit& row) { return row.per_wheel || row.field == &Limits::battery_power_W; }
+bool is_of_drives(const Limit& row) {
+  return row.per_wheel || row.field == &Limits::battery_power_W || row.field == &Limits::charge_power_W;
+}
 
 }  // namespace
 

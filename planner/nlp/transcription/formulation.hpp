@@ -24,6 +24,8 @@
 
 #include "planner/nlp/terms/acceleration.hpp"
 #include "planner/nlp/terms/battery_power.hpp"
+#include "planner/nlp/terms/battery_voltage.hpp"
+#include "planner/nlp/terms/charge_power.hpp"
 #include "planner/nlp/terms/duration.hpp"
 #include "planner/nlp/terms/motor_current.hpp"
 #include "planner/nlp/terms/motor_power.hpp"
@@ -41,7 +43,7 @@ namespace joulepath::nlp {
 ///   minimize    sum over segments of  sum_channels E + (1 - eta) z  +  (standby + price) dt   [Energy, Time]
 ///   subject to  every row of Rows within its bounds, z >= 0, E + z >= 0,  sum dt <= or = duration
 using Rows = std::tuple<Acceleration, YawAcceleration, WheelAcceleration, MotorCurrent, MotorVoltage,
-                        MotorPower, Traction, BatteryPower>;
+                        MotorPower, Traction, BatteryPower, BatteryVoltage, ChargePower>;
 /// The three accelerations come first and are linear in b.
 inline constexpr std::size_t kYawTerm = 1, kLastLinearTerm = 2;
 static_assert(std::is_same_v<std::tuple_element_t<kYawTerm, Rows>, YawAcceleration> &&

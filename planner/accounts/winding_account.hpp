@@ -1,0 +1,15 @@
+#pragma once
+
+#include "planner/values/plan.hpp"
+
+namespace joulepath {
+
+/// Temperature of both windings over a plan, from ambient at its start: one thermal node per motor, heated by
+/// the copper loss at the resistance that follows the temperature (rise_after_K()). Absent where the robot's
+/// motors state no `thermal`.
+[[nodiscard]] std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& plant);
+
+/// The verdict where a winding becomes hotter than its `max_winding_C`.
+[[nodiscard]] std::optional<Infeasibility> winding_too_hot(const Plan& plan);
+
+}  // namespace joulepath

@@ -1,0 +1,34 @@
+#include "planner/values/leg_state.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace joulepath {
+
+bool drifts(const Robot& robot) {
+  return !robot.battery.open_circuit_curve.empty() || robot.motor.left.thermal || robot.motor.right.thermal;
+}
+
+Robot robot_in(Robot robot, const LegState& state) {
+  if (std::isfinite(state.open_circuit_voltage_V))
+    robot.battery.open_circuit_voltage_V = state.open_circuit_voltage_V;
+  for (const Side side : kSides) robot.motor[side].resistance_ohm *= state.resistance_factor[side];
+  return robot;
+}
+
+Plant plant_in(Plant plant, const LegState& state) {
+  plant.robot = robot_in(std::move(plant.robot), state);
+  return plant;
+}
+
+Plant priced_plant_in(Plant plant, const LegState& state) {
+  plant = plant_in(std::move(plant), state);
+  if (state.price_of_heat == 0) return plant;
+  for (const Side side : kSides) {
+    plant.robot.motor[side].resistance_ohm *= 1 + state.price_of_heat;
+    plant.robot.motor[side].max_voltage_V = kNoLimit;
+  }
+  return plant;
+}
+
+}  // namespace joulepath

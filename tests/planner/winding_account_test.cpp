@@ -1,0 +1,154 @@
+// Windings over a mission: forecast, limit kept by a price of heat, verdicts with what would do.
+#include "planner/accounts/winding_account.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A tug of 600 kg on small motors.
+Robot tug(double max_winding_C) {
+  Robot robot = testing::nomad();
+  robot.inertia.chassis_mass_kg = 580;
+  robot.inertia.wheel_mass_kg = 10;
+  robot.inertia.chassis_yaw_inertia_kg_m2 = 80;
+  robot.limits->max_payload_kg = 1000;
+  robot.battery.capacity_Wh = 2000;
+  robot.power.standby_W = 40;
+  for (const Side side : kSides) {
+    Motor& motor = robot.motor[side];
+    motor.resistance_ohm = 1.2, motor.gear_ratio = 30, motor.friction_torque_Nm = 3;
+    motor.torque_constant_Nm_A = motor.voltage_constant_V_s_rad = 0.1;
+    motor.max_voltage_V = 48, motor.max_current_A = 40;
+    motor.thermal = {
+        .resistance_K_W = 6, .capacity_J_K = 25, .max_winding_C = max_winding_C, .ambient_C = 25};
+  }
+  robot.battery.open_circuit_voltage_V = 48;
+  return robot;
+}
+
+MissionRequest starts(int count, double payload_kg = 400, double dwell_s = 1) {
+  MissionRequest mission{.name = "starts"};
+  for (int k = 0; k < count; ++k)
+    mission.legs.push_back({.path = PathRequest{.bezier_m = {{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}}}},
+                            .payload = {payload_kg, payload_kg},
+                            .dwell_s = dwell_s});
+  return mission;
+}
+
+Plan drive(const MissionRequest& mission, const Robot& robot) {
+  return plan_mission(mission, {.robot = robot},
+                      {.solver = SolverChoice::fast, .nodes = 25, .baselines = false});
+}
+
+bool drives(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
+
+/// The temperatures of both windings from the rows of a plan alone, by small explicit steps.
+Sided<double> highest_C(const Plan& plan, const Robot& robot) {
+  const Trajectory rows = plan_trajectory(plan, make_plant(robot), 100);
+  Sided<double> most_C{-300, -300};
+  for (const Side side : kSides) {
+    const Motor& motor = robot.motor[side];
+    const WindingThermal& winding = *motor.thermal;
+    double at_C = winding.ambient_C;
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+      const double i2 =
+          0.5 * (std::pow(rows.motor_current_A[side][k], 2) + std::pow(rows.motor_current_A[side][k + 1], 2));
+      const double ohm = motor.resistance_ohm * (235 + at_C) / (235 + winding.ambient_C);
+      at_C += (ohm * i2 - (at_C - winding.ambient_C) / winding.resistance_K_W) / winding.capacity_J_K *
+              (rows.time_s[k + 1] - rows.time_s[k]);
+      most_C[side] = std::max(most_C[side], at_C);
+    }
+  }
+  return most_C;
+}
+
+TEST(WindingAccount, AgreesWithStepsAlongTheRowsOfThePlan) {
+  const Robot robot = tug(400);
+  const Plan plan = drive(starts(12), robot);
+  ASSERT_TRUE(drives(plan)) << plan.message;
+  ASSERT_TRUE(plan.winding);
+  const Sided<double> most_C = highest_C(plan, robot);
+  EXPECT_NEAR(plan.winding->highest_C, std::max(most_C.left, most_C.right), 1.0);
+  EXPECT_GT(plan.winding->highest_C, 45);
+}
+
+/// Equal starts: after each one the rise is q x + h, so it approaches h/(1 - q).
+TEST(WindingAccount, EqualStartsApproachTheirStationaryCycle) {
+  const Plan plan = drive(starts(40), tug(400));
+  ASSERT_TRUE(drives(plan)) << plan.message;
+  const auto rise_K = [&](std::size_t leg) { return plan.winding->after_leg_C[leg].left - 25; };
+  const double q = (rise_K(2) - rise_K(1)) / (rise_K(1) - rise_K(0)), stationary_K = rise_K(0) / (1 - q);
+  EXPECT_GT(q, 0.5);
+  EXPECT_NEAR(rise_K(39), stationary_K * (1 - std::pow(q, 40)), 0.02 * stationary_K);
+}
+
+TEST(WindingAccount, TheResistanceOfALegIsTheOneOfItsTemperature) {
+  const Plan plan = drive(starts(8), tug(400));
+  ASSERT_TRUE(drives(plan)) << plan.message;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    for (const Side side : kSides) {
+      const double before_C = k == 0 ? 25 : plan.winding->after_leg_C[k - 1][side];
+      const double factor = plan.legs[k].state.resistance_factor[side];
+      EXPECT_GE(factor, (235 + before_C) / 260 - 1e-3) << k;
+      EXPECT_LE(factor, (235 + plan.winding->hottest_on_leg_C[k][side]) / 260 + 1e-3) << k;
+    }
+  EXPECT_GT(plan.legs.back().energy.copper_J, 1.02 * plan.legs.front().energy.copper_J);
+}
+
+TEST(WindingLimit, IsKeptBySpeedWhereTimeIsFree) {
+  const Plan hot = drive(starts(8), tug(400));
+  ASSERT_TRUE(drives(hot)) << hot.message;
+  const double limit_C = 25 + 0.8 * (hot.winding->highest_C - 25);
+  const Robot robot = tug(limit_C);
+  const Plan cool = drive(starts(8), robot);
+  ASSERT_TRUE(drives(cool)) << cool.message;
+  EXPECT_LE(cool.winding->highest_C, limit_C);
+  EXPECT_GT(cool.winding->price_of_heat, 0);
+  EXPECT_GT(cool.duration_s, hot.duration_s);
+  EXPECT_LE(cool.worst_violation, 1e-6);
+  const Sided<double> most_C = highest_C(cool, robot);
+  EXPECT_NEAR(cool.winding->highest_C, std::max(most_C.left, most_C.right), 1.0);
+  EXPECT_LT(cool.gap_percent, 0.1) << "among plans with no more heat";
+}
+
+/// A time that is given leaves no speed to give up: the verdict names leg, time and what was planned instead.
+TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {
+  MissionRequest mission = starts(5);
+  const Plan hot = drive(mission, tug(400));
+  for (std::size_t k = 0; k < mission.legs.size(); ++k)
+    mission.legs[k].duration_s = 0.9 * hot.legs[k].duration_s;
+  const double hottest_C = drive(mission, tug(400)).winding->highest_C;
+  const Robot robot = tug(25 + 0.75 * (hottest_C - 25));
+  const Plan refused = drive(mission, robot);
+  ASSERT_TRUE(refused.infeasibility) << refused.message;
+  const Infeasibility& verdict = refused.infeasibility->reason;
+  EXPECT_EQ(verdict.constraint, "winding_temperature");
+  EXPECT_GT(refused.infeasibility->leg, 0u);
+  EXPECT_NE(refused.message.find("s after the mission's start"), std::string::npos) << refused.message;
+  ASSERT_TRUE(verdict.relaxation.contains("dwell_s")) << refused.message;
+  ASSERT_TRUE(verdict.relaxation.contains("payload_kg")) << refused.message;
+  MissionRequest rests = mission, lighter = mission;
+  for (LegRequest& leg : rests.legs) leg.dwell_s = verdict.relaxation.at("dwell_s");
+  const double payload_kg = verdict.relaxation.at("payload_kg");
+  for (LegRequest& leg : lighter.legs) leg.payload = {payload_kg, payload_kg};
+  EXPECT_LT(payload_kg, 400);
+  EXPECT_TRUE(drives(drive(rests, robot)));
+  EXPECT_TRUE(drives(drive(lighter, robot)));
+  for (LegRequest& leg : rests.legs) leg.dwell_s = 0.7 * verdict.relaxation.at("dwell_s");
+  EXPECT_FALSE(drives(drive(rests, robot)));
+}
+
+TEST(WindingAccount, AMotorWithoutThermalHasNone) {
+  EXPECT_FALSE(drive(starts(1, 0), testing::nomad()).winding);
+}
+
+}  // namespace
+}  // namespace joulepath
