@@ -226,6 +226,28 @@ std::optional<double> planned_resistance_ohm(double guess_ohm, double fails_ohm,
 
 }  // namespace
 
+void tell_anew(Plan& plan, const std::string& told) {
+  Infeasibility& verdict = plan.infeasibility->reason;
+  if (verdict.message.rfind(told, 0) != 0) return;
+  plan.message = verdict.message = sentence(verdict) + verdict.message.substr(told.size());
+}
+
+void name_battery_keys(Plan& plan, const Robot& robot, const PlansWithResistance& plans) {
+  Infeasibility& verdict = plan.infeasibility->reason;
+  const std::string told = sentence(verdict);
+  const Battery& battery = robot.battery;
+  const double ohm = battery.internal_resistance_ohm;
+  if (const auto power = verdict.relaxation.find("charge_power_W"); power != verdict.relaxation.end()) {
+    const double U = battery.open_circuit_voltage_V, needed_W = power->second;
+    verdict.relaxation.erase(power);
+    verdict.relaxation["max_charge_current_A"] = 2 * needed_W / (U + std::sqrt(U * U + 4 * ohm * needed_W));
+  }
+  if (verdict.relaxation.erase("battery_voltage_V") > 0 && ohm > 0)
+    if (const auto planned = planned_resistance_ohm(0.5 * ohm, ohm, plans))
+      verdict.relaxation["internal_resistance_ohm"] = *planned;
+  if (sentence(verdict) != told) tell_anew(plan, told);
+}
+
 void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
                    const PlansWithResistance& plans) {
   Infeasibility& verdict = plan.infeasibility->reason;

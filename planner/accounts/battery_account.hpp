@@ -31,6 +31,13 @@ using PlansWithResistance = std::function<bool(double)>;
 void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
                    const PlansWithResistance& plans);
 
+/// A verdict on the battery's voltage or its charging power offers keys of the robot file instead of these
+/// values: an internal resistance with which the mission was planned, the greatest charge current.
+void name_battery_keys(Plan& plan, const Robot& robot, const PlansWithResistance& plans);
+
+/// Replaces the sentence of a plan's verdict in its message, `told`, by the one of its present relaxations.
+void tell_anew(Plan& plan, const std::string& told);
+
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
 /// of `uncertainty:`, each propagated through the power model along the planned motion by central
 /// differences, and the model's own error. Errors of the legs are correlated, so the plan's sigma is above

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "model/battery_charge.hpp"
+#include "planner/accounts/battery_account.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr int kDriftRounds = 8;
-constexpr double kSameVoltage = 1e-5, kSameResistance = 1e-4;  ///< relative
+constexpr double kSameVoltage = 1e-5, kSameResistance = 5e-4;  ///< relative
 constexpr int kHundred = 100;
 
 /// Open-circuit voltage (V) of a state; none where it is constant.
@@ -34,6 +36,10 @@ bool same(const LegState& a, const LegState& b) {
   return near(a.open_circuit_voltage_V, b.open_circuit_voltage_V, kSameVoltage) &&
          near(a.resistance_factor.left, b.resistance_factor.left, kSameResistance) &&
          near(a.resistance_factor.right, b.resistance_factor.right, kSameResistance);
+}
+
+bool is_emptied(const Plan& plan) {
+  return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";
 }
 
 bool may_lack_charge(const std::string& constraint) {
@@ -63,6 +69,7 @@ Plan settled_at(double price_of_heat, const MissionRequest& mission, const Robot
                                {.open_circuit_voltage_V = start_V, .price_of_heat = price_of_heat});
   for (int round = 1;; ++round) {
     Plan plan = plan_in(states);
+    if (is_emptied(plan)) return plan;  // at lower voltages it takes no less
     std::vector<LegState> next = states_after(plan, robot, states);
     if (round == kDriftRounds || std::equal(states.begin(), states.end(), next.begin(), same)) return plan;
     states = std::move(next);
@@ -107,8 +114,10 @@ bool offer_charge(Plan& plan, const Robot& robot, double start_fraction, const P
     const int middle = (good + bad) / 2;
     (plans(static_cast<double>(middle) / kHundred) ? good : bad) = middle;
   }
+  const std::string told = sentence(verdict);
   if (verdict.constraint.starts_with("battery_")) verdict.relaxation.clear();
   verdict.relaxation["battery_fraction"] = static_cast<double>(good) / kHundred;
+  tell_anew(plan, told);
   return true;
 }
 
@@ -149,7 +158,8 @@ MissionRequest with_payload(MissionRequest mission, double share) {
 
 /// The least whole number in (low, high] that works, where high does and larger ones do as well.
 int least_that_works(int low, int high, const std::function<bool(int)>& works) {
-  while (high > low + 1 && high > 1.05 * low) {
+  constexpr double kClose = 1.1;
+  while (high > low + 1 && high > kClose * low) {
     const int middle = (low + high) / 2;
     (works(middle) ? high : low) = middle;
   }
@@ -167,9 +177,10 @@ int enough_dwell_s(const MissionRequest& mission, const PlansMission& plans) {
 
 /// Percent of every payload that must go; 0: none, or too little even without payload.
 int enough_unloaded_percent(const MissionRequest& mission, const PlansMission& plans) {
-  const auto works = [&](int percent) { return plans(with_payload(mission, 1 - 0.01 * percent)); };
-  if (!works(kHundred)) return 0;
-  return least_that_works(0, kHundred, works);
+  constexpr int kStep = 5;
+  const auto works = [&](int steps) { return plans(with_payload(mission, 1 - 0.01 * kStep * steps)); };
+  if (!works(kHundred / kStep)) return 0;
+  return kStep * least_that_works(0, kHundred / kStep, works);
 }
 
 double greatest_payload_kg(const MissionRequest& mission) {

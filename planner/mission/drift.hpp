@@ -38,7 +38,7 @@ void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& pla
 using PlansMission = std::function<bool(const MissionRequest&)>;
 
 /// Adds to the verdict on windings that are too hot the least dwell at every stop and the greatest payload
-/// with which the mission was planned, each to 5 %. `mission` is the one that was asked for.
+/// with which the mission was planned: to 10 %, and in steps of 5 %. `mission` is the one that was asked for.
 void offer_cooling(Plan& plan, const MissionRequest& mission, const PlansMission& plans);
 
 }  // namespace joulepath

@@ -371,15 +371,17 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   offer_cooling(answer, asked, [&](const MissionRequest& mission) {
     return planned(mission, world, plant).status <= SolveStatus::feasible;
   });
+  const auto plans_with_resistance = [&](double resistance_ohm) {
+    MissionWorld other = world;
+    other.robot.battery.internal_resistance_ohm = resistance_ohm;
+    return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
+  };
+  if (answer.infeasibility) name_battery_keys(answer, world.robot, plans_with_resistance);
   if (answer.infeasibility && answer.infeasibility->reason.constraint == "battery_power") {
     const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
     // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
     const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
-    blame_battery(answer, world.robot, payload, [&](double resistance_ohm) {
-      MissionWorld other = world;
-      other.robot.battery.internal_resistance_ohm = resistance_ohm;
-      return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
-    });
+    blame_battery(answer, world.robot, payload, plans_with_resistance);
   }
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);

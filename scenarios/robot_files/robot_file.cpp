@@ -48,6 +48,16 @@ constexpr MotorKey kMotorKeys[] = {{"gear_ratio", &Motor::gear_ratio},
                                    {"max_current_A", &Motor::max_current_A},
                                    {"inductance_H", &Motor::inductance_H}};
 
+WindingThermal read_thermal(const Node& node) {
+  const WindingThermal thermal{.resistance_K_W = node["resistance_K_W"].number(),
+                               .capacity_J_K = node["capacity_J_K"].number(),
+                               .max_winding_C = node["max_winding_C"].number(),
+                               .ambient_C = node["ambient_C"].number()};
+  if (thermal.max_winding_C <= thermal.ambient_C)
+    node["max_winding_C"].fail("a temperature above ambient_C", "the winding begins at ambient_C");
+  return thermal;
+}
+
 Sided<Motor> read_motors(const Node& node) {
   Sided<Motor> motors;
   for (const auto& key : kMotorKeys)
@@ -58,16 +68,6 @@ Sided<Motor> read_motors(const Node& node) {
   if (const auto thermal = node.find("thermal"))
     for (const Side side : kSides) motors[side].thermal = read_thermal(*thermal);
   return motors;
-}
-
-WindingThermal read_thermal(const Node& node) {
-  const WindingThermal thermal{.resistance_K_W = node["resistance_K_W"].number(),
-                               .capacity_J_K = node["capacity_J_K"].number(),
-                               .max_winding_C = node["max_winding_C"].number(),
-                               .ambient_C = node["ambient_C"].number()};
-  if (thermal.max_winding_C <= thermal.ambient_C)
-    node["max_winding_C"].fail("a temperature above ambient_C", "the winding begins at ambient_C");
-  return thermal;
 }
 
 Limits read_limits(const Node& node) {

@@ -119,14 +119,16 @@ TEST(WindingLimit, IsKeptBySpeedWhereTimeIsFree) {
   EXPECT_LT(cool.gap_percent, 0.1) << "among plans with no more heat";
 }
 
-/// A time that is given leaves no speed to give up: the verdict names leg, time and what was planned instead.
+/// A motion that is given leaves no speed to give up: the verdict names leg, time and what was planned
+/// instead.
 TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {
-  MissionRequest mission = starts(5);
+  const PrescribedMotion motion{
+      .profile = MotionProfile::trapezoid, .acceleration_m_s2 = 0.35, .speed_m_s = 0.8, .distance_m = 6};
+  MissionRequest mission{.name = "prescribed"};
+  for (int k = 0; k < 8; ++k) mission.legs.push_back({.motion = motion, .payload = {400, 400}, .dwell_s = 1});
   const Plan hot = drive(mission, tug(400));
-  for (std::size_t k = 0; k < mission.legs.size(); ++k)
-    mission.legs[k].duration_s = 0.9 * hot.legs[k].duration_s;
-  const double hottest_C = drive(mission, tug(400)).winding->highest_C;
-  const Robot robot = tug(25 + 0.75 * (hottest_C - 25));
+  ASSERT_TRUE(drives(hot)) << hot.message;
+  const Robot robot = tug(25 + 0.75 * (hot.winding->highest_C - 25));
   const Plan refused = drive(mission, robot);
   ASSERT_TRUE(refused.infeasibility) << refused.message;
   const Infeasibility& verdict = refused.infeasibility->reason;
@@ -136,14 +138,16 @@ TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {
   ASSERT_TRUE(verdict.relaxation.contains("dwell_s")) << refused.message;
   ASSERT_TRUE(verdict.relaxation.contains("payload_kg")) << refused.message;
   MissionRequest rests = mission, lighter = mission;
-  for (LegRequest& leg : rests.legs) leg.dwell_s = verdict.relaxation.at("dwell_s");
-  const double payload_kg = verdict.relaxation.at("payload_kg");
+  const double dwell_s = verdict.relaxation.at("dwell_s"), payload_kg = verdict.relaxation.at("payload_kg");
+  for (LegRequest& leg : rests.legs) leg.dwell_s = dwell_s;
   for (LegRequest& leg : lighter.legs) leg.payload = {payload_kg, payload_kg};
   EXPECT_LT(payload_kg, 400);
   EXPECT_TRUE(drives(drive(rests, robot)));
   EXPECT_TRUE(drives(drive(lighter, robot)));
-  for (LegRequest& leg : rests.legs) leg.dwell_s = 0.7 * verdict.relaxation.at("dwell_s");
+  for (LegRequest& leg : rests.legs) leg.dwell_s = 0.7 * dwell_s;
+  for (LegRequest& leg : lighter.legs) leg.payload = {payload_kg + 40, payload_kg + 40};
   EXPECT_FALSE(drives(drive(rests, robot)));
+  EXPECT_FALSE(drives(drive(lighter, robot)));
 }
 
 TEST(WindingAccount, AMotorWithoutThermalHasNone) {
