@@ -35,5 +35,31 @@ TEST(SimulatorCommands, WheelsWithoutAFileAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(scratch.at("robot")));
 }
 
+TEST(SimulatorCommands, APatchIsMadeOfAModelAlone) {
+  const ScratchDirectory scratch;
+  const std::string day =
+      " " JOULEPATH_SOURCE_DIR "/tests/data/practice/p04_dragging_wheel_rough/dataset.yaml";
+  const auto diagnose = [&](const std::string& options) {
+    return run_program(scratch, "diagnose" + day + " --out " + scratch.at("out") + " " + options);
+  };
+  const std::string model = scratch.at("robot.urdf");
+  ASSERT_EQ(run_program(scratch, "export " + kNomadFile + " --to urdf --out " + model).code, 0);
+  for (const auto& [options, told] :
+       {std::pair<std::string, std::string>{"--wheels a,b", "--simulator-model"},
+        {"--simulator-model " + kNomadFile, "XML"},
+        {"--simulator-model " + model + " --wheels left_wheel_joint", "LEFT,RIGHT"},
+        {"--simulator-model " + model + " --wheels a,b", "no joint a"}}) {
+    const auto refused = diagnose(options);
+    EXPECT_EQ(refused.code, 2) << options;
+    EXPECT_NE(refused.err.find(told), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("out"))) << options;
+  }
+  const auto patched = diagnose("--simulator-model " + model);
+  EXPECT_EQ(patched.code, 0) << patched.err;
+  EXPECT_NE(patched.out.find("simulator's model, dragging_wheel (right): dry friction"), std::string::npos);
+  EXPECT_NE(text_of(scratch.at("out/simulator_patch.diff")).find("+"), std::string::npos);
+  EXPECT_NE(text_of(scratch.at("out/robot_patched.urdf")), text_of(model));
+}
+
 }  // namespace
 }  // namespace joulepath
