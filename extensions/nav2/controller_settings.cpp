@@ -319,8 +319,8 @@ class ControllerReader {
     Driver driver;
     for (const auto& [key, value] : group.values) {
       const PlanarParameter* row = row_of(kTwists, key);
-      if (row == std::end(kTwists) || value.kind() != Value::Kind::list) continue;
-      const std::vector<Node> items = value.items();
+      if (row == std::end(kTwists)) continue;
+      const std::vector<Node> items = value.kind() == Value::Kind::list ? value.items() : std::vector<Node>{};
       if (items.size() != 3 && items.size() != 6) value.fail("[x, y, theta] or [x, y, z, roll, pitch, yaw]");
       take_least(driver.settings, row->along, row->sign, items.front());
       take_least(driver.settings, row->about, row->sign, items.back());
