@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 import numpy as np
 import yaml
@@ -67,7 +68,7 @@ def driven(name, folder):
 
 
 KEYS = ["chassis_mass_kg", "chassis_yaw_inertia_kg_m2", "center_of_mass_offset_m", "half_track_m", "wheel_radius_m", "wheel_mass_kg", "wheel_axle_inertia_kg_m2"]
-RELATIVE, ABSOLUTE = 1e-4, 1e-7  # of two readings that agree
+RELATIVE, ABSOLUTE = 1e-4, 1e-9  # of two readings that agree
 ROUND = 1 / math.cos(math.pi / 16)  # a circle lies inside a regular polygon of 16 corners
 
 
@@ -176,7 +177,7 @@ def read(about, items, folder):
             "URDF and SDF. A value stands once where both agree within 1e-4, else in bold as `ours for theirs`. *not stated*: neither",
             "gives a value (wheels without a round collision shape; a footprint of meshes). Wheels are *found* without `--wheels`, or *named*",
             "by it; then other wheels count as parts of the chassis. The footprint of round shapes may lie up to 2 % outside of them.", "",
-            f"{len(rows)} models, {wrong} of them with a difference. {about}".strip(), "",
+            textwrap.fill(f"{len(rows)} models, {wrong} of them with a difference. {about}", 110), "",
             "| model | wheels | chassis, kg | yaw inertia, kg m2 | center of mass, m | half track, m | wheel radius, m | wheel, kg | axle inertia, kg m2 | footprint, m |",
             "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|", *(text for text, _ in rows)]
 

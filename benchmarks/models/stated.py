@@ -133,7 +133,7 @@ def stated(file, wheels):
     """Values of a robot file by name, and `sides`: reach forward, backward, left, right of the axle's middle; None: not stated."""
     root = tree.parse(file).getroot()
     model = Urdf(root) if root.tag == "robot" else Sdf(root)
-    ends, axles, wheel_links, masses, rolling, radii = [], [], set(), [], [], []
+    ends, wheel_links, masses, rolling, radii = [], set(), [], [], []
     for name in wheels:
         _, _, child, place, axis = model.joints[name]
         axis = axis / np.linalg.norm(axis)
