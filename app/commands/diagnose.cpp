@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/diagnose/diagnosis_results.hpp"
 #include "app/diagnose/left_out_effects.hpp"
 #include "app/output_directory.hpp"
+#include "app/program_parts.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/effects/effect_label.hpp"
@@ -105,14 +109,23 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
         << " by the model, not calibrated); joulepath experiment writes it\n";
 }
 
+using DiagnosisParts = std::vector<std::unique_ptr<DiagnosisPart>>;
+
+std::string diagnose_examples(const DiagnosisParts& parts) {
+  std::string text =
+      "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
+      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap\n";
+  for (const auto& part : parts) text += example_line("diagnose", part->example());
+  return text;
+}
+
 class Diagnose : public Command {
  public:
-  Diagnose()
+  explicit Diagnose(DiagnosisParts parts)
       : Command({.name = "diagnose",
                  .says = "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it",
-                 .examples =
-                     "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
-                     "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
+                 .examples = diagnose_examples(parts)}),
+        parts_(std::move(parts)) {}
 
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_,
@@ -128,14 +141,19 @@ class Diagnose : public Command {
               "write measured and predicted signals of every run into diagnosis.json, for the studio");
     line.flag("--fail-on-gap", fail_on_gap_,
               "exit code 1 unless the verdict is no_gap and no run is left out");
+    for (const auto& part : parts_) part->declare(line);
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
     const std::set<std::string> without = left_out_effects(without_);
-    OutputDirectory out(out_,
-                        {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
-                        common_.force);
+    std::vector<std::string> files{"diagnosis.json", "report.html", "robot_corrected.yaml",
+                                   "dataset_corrected.yaml"};
+    for (const auto& part : parts_) {
+      part->prepare();
+      std::ranges::copy(part->files(), std::back_inserter(files));
+    }
+    OutputDirectory out(out_, files, common_.force);
     const DiagnosisResults results = diagnosis_results(
         read_dataset_or_log(
             dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
@@ -148,11 +166,13 @@ class Diagnose : public Command {
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml",
                 corrected_dataset_text(results.dataset, diagnosis.corrected_instruments, out_));
+    std::ostringstream more;
+    for (const auto& part : parts_) part->write(diagnosis, out, more);
     out.commit();
     if (common_.json)
       std::cout << results.json;
     else if (!common_.quiet)
-      print_summary(std::cout, diagnosis);
+      print_summary(std::cout, diagnosis), std::cout << more.str();
     const bool gap = diagnosis.verdict != Verdict::no_gap || !diagnosis.runs_apart.empty();
     return fail_on_gap_ && gap ? kInfeasibleOrFailed : kDone;
   }
@@ -160,12 +180,15 @@ class Diagnose : public Command {
  private:
   std::string dataset_{}, out_{}, robot_{};
   std::vector<std::string> without_{};
+  DiagnosisParts parts_;
   bool signals_{}, fail_on_gap_{};
   CommonOptions common_{};
 };
 
 }  // namespace
 
-std::unique_ptr<Command> make_diagnose_command() { return std::make_unique<Diagnose>(); }
+std::unique_ptr<Command> make_diagnose_command() {
+  return std::make_unique<Diagnose>(made(extension_parts().diagnosis_parts));
+}
 
 }  // namespace joulepath
