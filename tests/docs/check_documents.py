@@ -60,7 +60,7 @@ def cited_documents(source):
                 for cited in DOCUMENT.findall(file.read_text(errors="replace")):
                     if not (file.name == "run" and cited.startswith("benchmarks/results/")):  # it writes that file
                         yield file.relative_to(source), cited
-    for file in ("CMakeLists.txt", "dev"):
+    for file in ("CMakeLists.txt", "dev", "site/build"):
         for cited in DOCUMENT.findall((source / file).read_text()):
             yield file, cited
 
