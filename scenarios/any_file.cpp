@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/plausible.hpp"
@@ -193,7 +194,9 @@ const FileReader* reader_of(const std::string& given_kind, bool of_documents, co
 
 std::string checked_kinds() {
   std::string names = "robot, map, mission, path, dataset, run log";
-  for (const FileReader& reader : registry().files) names += ", " + reader.kind;
+  std::set<std::string> told;
+  for (const FileReader& reader : registry().files)
+    if (told.insert(reader.kind).second) names += ", " + reader.kind;
   return names + ", plan or diagnosis; " + robot_source_names();
 }
 
