@@ -65,7 +65,7 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
     out << '\n';
   }
   if (!d.pinned_combination.empty()) out << "  the data determine only: " << d.pinned_combination << '\n';
-  if (d.causes.empty() && file_verdict(d) != Verdict::no_gap)
+  if (d.causes.empty() && d.verdict != Verdict::no_gap)
     for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
   for (const UnknownCause& unknown : d.unknowns)
@@ -95,6 +95,7 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << diagnosis_meaning(d)
       << ' ' << next_step(d) << '\n';
+  if (const std::string simulator = simulator_words(d); !simulator.empty()) out << simulator << '\n';
   if (const std::string apart = runs_apart_words(d); !apart.empty()) out << apart << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;

@@ -19,7 +19,9 @@ DiagnosisResults diagnosis_results(Dataset dataset, DiagnoseOptions options, con
   else
     describe_repairs(results.dataset, diagnosis.data_checks);
   if (diagnosis.corrected_robot) {
-    const DecisionCost cost = decision_cost(results.dataset.robot, *diagnosis.corrected_robot);
+    const DecisionCost cost =
+        decision_cost(diagnosis.simulator.runs > 0 ? diagnosis.simulator.robot : results.dataset.robot,
+                      *diagnosis.corrected_robot);
     diagnosis.decision_missions = cost.missions;
     diagnosis.joules_lost_percent = cost.joules_lost_percent;
   }

@@ -196,14 +196,46 @@ class RunReader {
   /// names of the run's log.
   void read_predicted(const Node& node, const ColumnSources& sources, Run& run) {
     const std::string file = resolve_file(node, options_);
+    RunLog predicted =
+        read_run_log({{file, NamedBy(node)}}, has_own_names(node, file) ? ColumnSources{} : sources,
+                     dataset_.robot.geometry, node.text());
+    drop_partial_channels(predicted.trajectory, node.text(), dataset_.artifacts);
+    refuse_no_common(node, run.log, predicted.trajectory);
+    run.predicted = std::move(predicted.trajectory);
+  }
+
+  /// Bags name their sources themselves.
+  static bool has_own_names(const Node& node, const std::string& file) {
+    if (log_reader_of(file, NamedBy(node))) return true;
     const auto header = read_csv(
                             file, [](const std::string&) { return false; }, NamedBy(node))
                             .header;
-    const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
-    RunLog predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources,
-                                    dataset_.robot.geometry, node.text());
-    drop_partial_channels(predicted.trajectory, node.text(), dataset_.artifacts);
-    run.predicted = std::move(predicted.trajectory);
+    return std::find(header.begin(), header.end(), "time_s") != header.end();
+  }
+
+  static void refuse_no_common(const Node& node, const Trajectory& real, const Trajectory& predicted) {
+    const auto span = [](const Trajectory& log) {
+      return number_text(log.time_s.front()) + " to " + number_text(log.time_s.back()) + " s";
+    };
+    if (predicted.time_s.back() <= real.time_s.front() || real.time_s.back() <= predicted.time_s.front())
+      node.fail_found("a log from " + span(predicted),
+                      "one that has a time in common with the run's, " + span(real),
+                      "both times count from the same origin");
+    const auto both = [](const std::vector<double>& one, const std::vector<double>& other) {
+      return !one.empty() && !other.empty();
+    };
+    const auto both_drive = [&](Side side) {
+      return both(real.motor_current_A[side], predicted.motor_current_A[side]) ||
+             both(real.motor_voltage_V[side], predicted.motor_voltage_V[side]) ||
+             both(real.motor_power_W[side], predicted.motor_power_W[side]);
+    };
+    if (both_drive(Side::left) || both_drive(Side::right) ||
+        both(real.battery_current_A, predicted.battery_current_A) ||
+        both(real.gyro_yaw_rate_rad_s, predicted.gyro_yaw_rate_rad_s) ||
+        both(real.heading_rad, predicted.heading_rad) || both(real.position_x_m, predicted.position_x_m))
+      return;
+    node.fail_found("no channel beyond the motion that the run's log has, too",
+                    "a motor's current, voltage or power, the battery's current, gyro or pose");
   }
 
   Dataset& dataset_;
@@ -223,7 +255,7 @@ Schema run_schema() {
               optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
               optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),
               optional("surface", text()), optional("use", choice({"any", "diagnosis", "validation"})),
-              optional("predicted", text(), "another simulator's prediction of this run (CSV)"),
+              optional("predicted", text(), "log that the user's own simulator gave for this run"),
               optional("measured_energy_J", map({required("left", number()), required("right", number())})),
               optional("battery_energy_Wh", number())})
       .with_exactly_one({"file", "files", "motion"});

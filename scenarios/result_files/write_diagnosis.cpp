@@ -56,15 +56,6 @@ Json gap_json(const GapReport& gap) {
   return json;
 }
 
-Json simulator_json(const SimulatorGap& simulator) {
-  return {{"runs", simulator.runs},
-          {"of_runs", simulator.of_runs},
-          {"gap_percent", six_digits(simulator.gap_percent)},
-          {"bias_percent", six_digits(simulator.bias_percent)},
-          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
-          {"model_verdict", verdict_name(simulator.model_verdict)}};
-}
-
 Json run_apart_json(const RunApart& apart) {
   return {{"run", apart.run},
           {"over_model_percent", six_digits(apart.over_model_percent)},
@@ -107,6 +98,24 @@ Json each_json(const std::vector<Value>& values, const Entry& entry) {
   Json list = Json::array();
   for (const Value& value : values) list.push_back(entry(value));
   return list;
+}
+
+Json simulator_json(const Diagnosis& d) {
+  const SimulatorGap& simulator = d.simulator;
+  return {{"runs", simulator.runs},
+          {"of_runs", simulator.of_runs},
+          {"gap_percent", six_digits(simulator.gap_percent)},
+          {"bias_percent", six_digits(simulator.bias_percent)},
+          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
+          {"contents_verdict", verdict_name(simulator.contents)},
+          {"contains", each_json(simulator.contains, named_cause_json)},
+          {"another_robots_file", simulator.is_another_robots},
+          {"aligned_by",
+           {{"time", simulator.by_time}, {"command", simulator.by_command}, {"path", simulator.by_path}}},
+          {"clock_offset_s", six_digits(simulator.clock_offset_s)},
+          {"motion_difference_percent", six_digits(simulator.motion_difference_percent)},
+          {"lacking_channels", simulator.lacking_channels},
+          {"sentence", simulator_words(d)}};
 }
 
 Json ranked_json(const RankedEffect& ranked) {
@@ -231,7 +240,7 @@ std::string diagnosis_json(const Diagnosis& d) {
        {{"missions", d.decision_missions},
         {"joules_lost_with_nominal_percent", six_digits(d.joules_lost_percent)}}},
       {"validation", {{"runs", d.validation_runs}, {"method", d.validation_method}}}};
-  if (d.simulator.runs > 0) json["simulator"] = simulator_json(d.simulator);
+  if (d.simulator.runs > 0) json["simulator"] = simulator_json(d);
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
