@@ -95,7 +95,9 @@ TEST(SimulatorGap, IsWhatTheSimulatorLacksWhateverTheFileIs) {
         diagnose(day_of(testing::nomad(), with(plant, kMissingRolling), plant), {.bootstrap = 20});
     EXPECT_EQ(d.verdict, Verdict::explained) << diagnosis_sentence(d);
     ASSERT_EQ(names_of(d.causes), std::vector<std::string>{"rolling_resistance"}) << diagnosis_sentence(d);
-    if (!d.simulator.is_another_robots) EXPECT_NEAR(d.causes.front().parameters.front().value, 0.012, 0.0012);
+    if (!d.simulator.is_another_robots) {
+      EXPECT_NEAR(d.causes.front().parameters.front().value, 0.012, 0.0012);
+    }
     EXPECT_GT(d.gap.energy.shrink_fraction, 0.85) << diagnosis_sentence(d);
   }
 }
