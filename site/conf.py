@@ -1,4 +1,4 @@
-"""Sphinx's settings of the site; `./dev site` runs it. Design: docs/decisions/0703-site.md"""
+"""Sphinx's settings of the site; `./dev site` runs it. Design: docs/decisions/0702-studio-and-reports.md"""
 import os
 import pathlib
 import re

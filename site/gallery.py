@@ -3,7 +3,7 @@
 gallery's page.
 
 usage: gallery.py PROGRAM SOURCE_DIR STAGE_DIR    writes STAGE_DIR/docs/gallery.md and STAGE_DIR/extra/gallery/
-Design: docs/decisions/0703-site.md
+Design: docs/decisions/0702-studio-and-reports.md
 """
 import concurrent.futures
 import os

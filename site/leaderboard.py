@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
 """Writes the leaderboard of the public problem set: every file of answers, judged by benchmarks/problems/check.py.
 
-usage: leaderboard.py SOURCE_DIR OUT.md    Answers: benchmarks/problems/solutions.json, benchmarks/problems/answers/*.json
+usage: leaderboard.py SOURCE_DIR BENCH_PROBLEMS OUT.md
+Answers: those of this build on two grids, and benchmarks/problems/answers/*.json
 """
 import importlib.util
 import json
 import pathlib
 import statistics
+import subprocess
 import sys
+import tempfile
+
+NODES = (200, 50)
 
 HEAD = """# Leaderboard of the public problem set
 
@@ -71,11 +76,21 @@ def kinds(data):
                    for kind, found in sorted(gaps.items()))
 
 
+def answers_of(folder, program):
+    """{name: answers} of this build and of the committed files."""
+    answers = {}
+    with tempfile.TemporaryDirectory() as scratch:
+        for nodes in NODES:
+            file = pathlib.Path(scratch) / "answers.json"
+            subprocess.run([program, "solve", folder / "problems.json", file, str(nodes)], check=True, stdout=subprocess.DEVNULL)
+            answers[f"joulepath, {nodes} nodes"] = json.loads(file.read_text())
+    return answers | {file.stem: json.loads(file.read_text()) for file in sorted((folder / "answers").glob("*.json"))}
+
+
 def main():
-    folder, out = pathlib.Path(sys.argv[1]) / "benchmarks/problems", pathlib.Path(sys.argv[2])
+    folder, program, out = pathlib.Path(sys.argv[1]) / "benchmarks/problems", sys.argv[2], pathlib.Path(sys.argv[3])
     data, judge = json.loads((folder / "problems.json").read_text()), judge_of(folder)
-    files = {"joulepath (examples)": folder / "solutions.json", **{file.stem: file for file in sorted((folder / "answers").glob("*.json"))}}
-    rows = [row(name, json.loads(file.read_text()), data, judge) for name, file in files.items()]
+    rows = [row(name, answers, data, judge) for name, answers in answers_of(folder, program).items()]
     out.write_text(HEAD + "".join(rows) + TAIL + kinds(data))
     print(f"leaderboard: {len(rows)} files of answers")
 

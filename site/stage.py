@@ -2,7 +2,7 @@
 """Copies what the site shows into one folder: README, docs/README.md, every page that a page of these links to, and the
 files that they show. Groups of docs/README.md become the site's navigation.
 
-usage: stage.py SOURCE_DIR OUT_DIR. Design: docs/decisions/0703-site.md
+usage: stage.py SOURCE_DIR OUT_DIR. Design: docs/decisions/0702-studio-and-reports.md
 """
 import pathlib
 import re
