@@ -2,6 +2,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/diagnose/changed_simulator.hpp"
 #include "app/diagnose/diagnosis_results.hpp"
 #include "app/diagnose/left_out_effects.hpp"
 #include "app/output_directory.hpp"
@@ -113,7 +114,8 @@ class Diagnose : public Command {
                  .says = "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it",
                  .examples =
                      "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
-                     "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
+                     "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap\n"
+                     "  joulepath diagnose dataset.yaml --out out/diagnosis --after changed_simulator"}) {}
 
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_,
@@ -127,12 +129,17 @@ class Diagnose : public Command {
         .comma_separated();
     line.flag("--signals", signals_,
               "write measured and predicted signals of every run into diagnosis.json, for the studio");
+    line.option(
+        "--after", after_,
+        "directory with the logs of the changed simulator, named as those under predicted:; compares them "
+        "with diagnosis.json in --out and writes after.json beside it");
     line.flag("--fail-on-gap", fail_on_gap_,
               "exit code 1 unless the verdict is no_gap and no run is left out");
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
+    if (!after_.empty()) return run_after();
     const std::set<std::string> without = left_out_effects(without_);
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
@@ -159,7 +166,22 @@ class Diagnose : public Command {
   }
 
  private:
-  std::string dataset_{}, out_{}, robot_{};
+  int run_after() {
+    OutputDirectory out(out_, {"after.json"}, common_.force);
+    const ReadOptions options{
+        .untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true};
+    const ChangedSimulator after =
+        changed_simulator(read_dataset(dataset_, options, robot_), out_ + "/diagnosis.json", after_, options);
+    out.write("after.json", after.json);
+    out.commit();
+    if (common_.json)
+      std::cout << after.json;
+    else if (!common_.quiet)
+      std::cout << after.sentence << '\n';
+    return kDone;
+  }
+
+  std::string dataset_{}, out_{}, robot_{}, after_{};
   std::vector<std::string> without_{};
   bool signals_{}, fail_on_gap_{};
   CommonOptions common_{};
