@@ -5,6 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/diagnose/changed_simulator.hpp"
 #include "app/diagnose/diagnosis_results.hpp"
 #include "app/diagnose/left_out_effects.hpp"
 #include "app/output_directory.hpp"
@@ -115,7 +116,8 @@ using DiagnosisParts = std::vector<std::unique_ptr<DiagnosisPart>>;
 std::string diagnose_examples(const DiagnosisParts& parts) {
   std::string text =
       "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
-      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap\n";
+      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap\n"
+      "  joulepath diagnose dataset.yaml --out out/diagnosis --after changed_simulator\n";
   for (const auto& part : parts) text += example_line("diagnose", part->example());
   return text;
 }
@@ -140,6 +142,10 @@ class Diagnose : public Command {
         .comma_separated();
     line.flag("--signals", signals_,
               "write measured and predicted signals of every run into diagnosis.json, for the studio");
+    line.option(
+        "--after", after_,
+        "directory with the logs of the changed simulator, named as those under predicted:; compares them "
+        "with diagnosis.json in --out and writes after.json beside it");
     line.flag("--fail-on-gap", fail_on_gap_,
               "exit code 1 unless the verdict is no_gap and no run is left out");
     for (const auto& part : parts_) part->declare(line);
@@ -147,6 +153,7 @@ class Diagnose : public Command {
   }
 
   int run() override {
+    if (!after_.empty()) return run_after();
     const std::set<std::string> without = left_out_effects(without_);
     std::vector<std::string> files{"diagnosis.json", "report.html", "robot_corrected.yaml",
                                    "dataset_corrected.yaml"};
@@ -179,7 +186,22 @@ class Diagnose : public Command {
   }
 
  private:
-  std::string dataset_{}, out_{}, robot_{};
+  int run_after() {
+    OutputDirectory out(out_, {"after.json"}, common_.force);
+    const ReadOptions options{
+        .untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true};
+    const ChangedSimulator after =
+        changed_simulator(read_dataset(dataset_, options, robot_), out_ + "/diagnosis.json", after_, options);
+    out.write("after.json", after.json);
+    out.commit();
+    if (common_.json)
+      std::cout << after.json;
+    else if (!common_.quiet)
+      std::cout << after.sentence << '\n';
+    return kDone;
+  }
+
+  std::string dataset_{}, out_{}, robot_{}, after_{};
   std::vector<std::string> without_{};
   DiagnosisParts parts_;
   bool signals_{}, fail_on_gap_{};

@@ -83,7 +83,7 @@ Alignment align(const Run& real, const RunSignals& real_signals, const Run& simu
   const auto consider = [&](AlignedBy by, Times real_time_s) {
     const double difference = motion_difference(real_signals, simulated_signals, real_time_s);
     if (by == AlignedBy::time || difference + kSameMotion < best.motion_difference)
-      best = {by, offset_s, difference, std::move(real_time_s)};
+      best = {by, by == AlignedBy::command ? offset_s : 0.0, difference, std::move(real_time_s)};
   };
   Times same_s = times_of(simulated_signals.time_s);
   consider(AlignedBy::time, same_s);

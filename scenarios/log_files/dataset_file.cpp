@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 #include "diagnosis/checks/plausible.hpp"
@@ -10,6 +11,7 @@
 #include "scenarios/log_files/clock_jumps.hpp"
 #include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/partial_channels.hpp"
+#include "scenarios/log_files/predictions_in.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/log_files/standstill_cuts.hpp"
 #include "scenarios/mission_files/motion_entry.hpp"
@@ -102,6 +104,15 @@ class RunReader {
     add(node, std::move(run));
   }
 
+  /// The prediction of a run that is read, from another directory.
+  void read_prediction_in(const std::string& directory, const Node& node, Run& run) {
+    const Node predicted = node["predicted"];
+    const auto file = std::filesystem::path(directory) / std::filesystem::path(predicted.text()).filename();
+    if (!std::filesystem::exists(file))
+      predicted.fail_found("no file " + file.string(), "a log of that name for each run with `predicted:`");
+    read_predicted(predicted, file.string(), sources_of_run(node, sources_), run);
+  }
+
  private:
   void add(const Node& node, Run whole) {
     std::vector<Run> runs = with_whole_channels(std::move(whole), options_, dataset_.artifacts);
@@ -162,7 +173,8 @@ class RunReader {
         named_by.fail_found(channel.found, channel.accepted,
                             channel.hint + " `columns:` with scale converts");
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
-    if (const auto predicted = node.find("predicted")) read_predicted(*predicted, sources, run);
+    if (const auto predicted = node.find("predicted"))
+      read_predicted(*predicted, resolve_file(*predicted, options_), sources, run);
   }
 
   [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
@@ -194,8 +206,7 @@ class RunReader {
 
   /// Reads another simulator's log, with the format's own names (`columns:` does not apply then) or with the
   /// names of the run's log.
-  void read_predicted(const Node& node, const ColumnSources& sources, Run& run) {
-    const std::string file = resolve_file(node, options_);
+  void read_predicted(const Node& node, const std::string& file, const ColumnSources& sources, Run& run) {
     RunLog predicted =
         read_run_log({{file, NamedBy(node)}}, has_own_names(node, file) ? ColumnSources{} : sources,
                      dataset_.robot.geometry, node.text());
@@ -294,6 +305,20 @@ Dataset dataset_from(const Document& document, const ReadOptions& options, const
   RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
+  return dataset;
+}
+
+Dataset with_predictions_in(Dataset dataset, const std::string& directory, const ReadOptions& options) {
+  const Document document = Document::load(dataset.file);
+  const Node root = document.root();
+  const auto columns = root.find("columns");
+  const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
+  const DatasetInMemory memory;
+  RunReader reader(dataset, sources, options, memory);
+  for (const Node& node : root["runs"].items())
+    for (Run& run : dataset.runs)
+      if (run.predicted && run.mark.line == node.mark().line && run.mark.column == node.mark().column)
+        reader.read_prediction_in(directory, node, run);
   return dataset;
 }
 

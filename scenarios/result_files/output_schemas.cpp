@@ -156,6 +156,10 @@ Schema simulator_schema() {
        required("clock_offset_s", result(), "of its commands after the robot's, the greatest"),
        required("motion_difference_percent", result(), "of the wheel speeds (rms) after that, the greatest"),
        required("lacking_channels", list(text()), "compared with this program's model instead"),
+       optional("logs",
+                list(open(map({required("run", text()), required("content", text()),
+                               required("predicted_content", text())}))),
+                "what was compared, with hashes of the content"),
        required("sentence", text())}));
 }
 
@@ -238,6 +242,18 @@ Schema plan_schema() {
        optional("legs", list(leg_result_schema())),
        optional("baselines", baselines_schema()),
        optional("infeasibility", infeasibility_schema())}));
+}
+
+Schema after_schema() {
+  return open(
+      map({required("schema", text()), required("sentence", text(), "the answer in one line"),
+           required("causes", list(text()), "that the first diagnosis named"),
+           required("gap", gap_schema(), "of the simulator before and after its change"),
+           required(
+               "forecast",
+               open(map({required("shrink_fraction", result()), required("shrink_interval_95", interval())})),
+               "of the first diagnosis"),
+           required("validation", open(map({required("runs", list(text())), required("method", text())})))}));
 }
 
 Schema diagnosis_schema() {

@@ -4,6 +4,7 @@
 
 #include "model/text_of_list.hpp"
 #include "scenarios/result_files/diagnosis_sentence.hpp"
+#include "scenarios/result_files/gap_after.hpp"
 #include "scenarios/result_files/next_step.hpp"
 #include "scenarios/text/significant.hpp"
 
@@ -35,6 +36,8 @@ void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, con
   json[prefix + "noise_floor_rms_" + unit] = six_digits(gap.noise_floor_rms);
 }
 
+}  // namespace
+
 Json gap_json(const GapReport& gap) {
   Json current = Json::object(), voltage = Json::object(), motion = Json::object(), battery = Json::object();
   add_signal(current, gap.current_A, "", "A");
@@ -55,6 +58,8 @@ Json gap_json(const GapReport& gap) {
   if (gap.battery_energy) json["battery_energy"] = energy_json(*gap.battery_energy);
   return json;
 }
+
+namespace {
 
 Json run_apart_json(const RunApart& apart) {
   return {{"run", apart.run},
