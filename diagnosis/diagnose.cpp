@@ -322,6 +322,8 @@ Diagnosis diagnose_simulator(const Dataset& dataset, const DiagnoseOptions& opti
   const ComparedRuns compared = compare_runs(dataset, contents.corrected_robot.value_or(dataset.robot));
   Diagnosis d = compared_with_simulator(compared, contents, options);
   describe_simulator(dataset, compared, contents, d);
+  for (const DataCheck& check : contents.data_checks)
+    d.notes.push_back("the simulator's logs: " + check.channel + " " + check.kind + ", " + check.evidence);
   renumber(compared.indices, d);
   return d;
 }

@@ -156,7 +156,7 @@ class Diagnose : public Command {
     if (!after_.empty()) return run_after();
     const std::set<std::string> without = left_out_effects(without_);
     std::vector<std::string> files{"diagnosis.json", "report.html", "robot_corrected.yaml",
-                                   "dataset_corrected.yaml"};
+                                   "dataset_corrected.yaml", "after.json"};
     for (const auto& part : parts_) {
       part->prepare();
       std::ranges::copy(part->files(), std::back_inserter(files));
@@ -186,7 +186,21 @@ class Diagnose : public Command {
   }
 
  private:
+  /// Nothing is fitted again: options of a diagnosis have no meaning.
+  void refuse_options_of_a_diagnosis() const {
+    const auto refuse = [](const std::string& option) {
+      throw ConfigError({{option, 0, 0}, "", "a value together with --after", "no such option", ""});
+    };
+    for (const auto& [option, given] : {std::pair{"--without", !without_.empty()},
+                                        {"--signals", signals_},
+                                        {"--fail-on-gap", fail_on_gap_}})
+      if (given) refuse(option);
+    for (const auto& part : parts_)
+      if (const std::string option = part->asked_by(); !option.empty()) refuse(option);
+  }
+
   int run_after() {
+    refuse_options_of_a_diagnosis();
     OutputDirectory out(out_, {"after.json"}, common_.force);
     const ReadOptions options{
         .untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true};

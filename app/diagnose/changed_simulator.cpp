@@ -66,8 +66,13 @@ Forecast forecast_of(const Node& first) {
                     .noise_floor_percent = energy["noise_floor_percent"].number(),
                     .shrink_fraction = energy["shrink_fraction"].number(),
                     .shrink_interval_95 = {ends[0].number(), ends[1].number()}};
+  if (const auto battery = first["gap"].find("battery_energy");
+      battery && battery->kind() == Value::Kind::map)
+    forecast.battery_floor_percent = (*battery)["noise_floor_percent"].number();
   for (const Node& cause : first["causes"].items()) forecast.causes.push_back(cause["effect"].text());
-  for (const Node& run : first["validation"]["runs"].items()) forecast.held_out.push_back(run.text());
+  const Node judges = first["validation"]["runs"];
+  for (const Node& run : judges.items()) forecast.held_out.push_back(run.text());
+  if (forecast.held_out.empty()) judges.fail_found("no run", "a first diagnosis with runs that judge");
   return forecast;
 }
 
@@ -90,8 +95,9 @@ ChangedSimulator changed_simulator(const Dataset& dataset, const std::string& fi
     root.fail_found("no simulator", "a diagnosis of a dataset whose runs have `predicted:`");
   refuse_other_logs(dataset, root["simulator"]);
   const Forecast forecast = forecast_of(root);
-  const GapAfter after = gap_after(dataset, with_predictions_in(dataset, directory, options),
-                                   forecast.held_out, forecast.noise_floor_percent);
+  const GapAfter after =
+      gap_after(dataset, with_predictions_in(dataset, directory, options), forecast.held_out,
+                forecast.noise_floor_percent, forecast.battery_floor_percent);
   return {gap_after_json(after, forecast), after_sentence(after, forecast)};
 }
 

@@ -21,6 +21,7 @@ class DiagnosisPart {
 
   [[nodiscard]] virtual std::string example() const = 0;  ///< for the help of `diagnose`
   virtual void declare(CommandLine& line) = 0;
+  [[nodiscard]] virtual std::string asked_by() const = 0;  ///< the option that was given; empty: none
   /// Reads what the options name, before the diagnosis. Throws ConfigError.
   virtual void prepare() = 0;
   [[nodiscard]] virtual std::vector<std::string> files() const = 0;  ///< that it may write; after prepare()

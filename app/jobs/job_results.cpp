@@ -76,11 +76,11 @@ int finish_batch(OutputDirectory& out, const std::string& title, const std::vect
     for (const auto& [status, number] : count)
       std::cout << " " << number << " " << status << (status == "optimal" ? " on their paths" : "");
     std::cout << ", " << figure(energy_J, 6) << " J in all\nresults in " << out.path() << "\n";
-    for (std::size_t k = 0; k < std::min(failed.size(), kReasons); ++k)
-      std::cerr << "joulepath: " << printable(failed[k]) << "\n";
-    if (failed.size() > kReasons)
-      std::cerr << "joulepath: " << failed.size() - kReasons << " more in results.jsonl (status, message)\n";
   }
+  for (std::size_t k = 0; k < std::min(failed.size(), kReasons); ++k)
+    std::cerr << "joulepath: " << printable(failed[k]) << "\n";
+  if (failed.size() > kReasons)
+    std::cerr << "joulepath: " << failed.size() - kReasons << " more in results.jsonl (status, message)\n";
   return failed.empty() ? kDone : kInfeasibleOrFailed;
 }
 

@@ -161,7 +161,7 @@ def main():
         "| robot | hidden change | seed | verdict | names | gap before, % | after, % | model |", "|---|---|---:|---|---|---:|---:|---|", *rows, ""])
     print(text)
     if not options.short:
-        (ROOT / "benchmarks/results/simulator_loop.md").write_text(text)
+        (ROOT / "benchmarks/results" / "simulator_loop.md").write_text(text)
     return 1 if options.short and (wrong or max(widened) > 0.2 or min(closed) < 0.6) else 0
 
 

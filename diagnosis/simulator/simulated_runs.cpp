@@ -115,6 +115,10 @@ ComparedRuns compare_runs(const Dataset& dataset, const Robot& robot) {
     if (!has_prediction(dataset.runs[r])) continue;
     Run& run = compared.dataset.runs.emplace_back(dataset.runs[r]);
     const Run simulated = simulated_run(run);
+    if (!has_usable_log(simulated))
+      throw ConfigError({run.mark, "predicted",
+                         "a log of " + std::to_string(simulated.log.size()) + " samples",
+                         "a motion of at least 40 samples and 0.5 s", ""});
     const RunSignals here = make_run_signals(run, r, robot), there = make_run_signals(simulated, r, robot);
     Alignment alignment = align(run, here, simulated, there);
     refuse_other_motion(run, alignment);

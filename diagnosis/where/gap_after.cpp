@@ -19,7 +19,7 @@ std::vector<RunSignals> signals_of(const Dataset& dataset, const std::vector<std
 }  // namespace
 
 GapAfter gap_after(const Dataset& before, const Dataset& after, const std::vector<std::string>& held_out,
-                   double noise_floor_percent, std::size_t bootstrap) {
+                   double noise_floor_percent, double battery_floor_percent, std::size_t bootstrap) {
   const std::vector<RunSignals> old_signals = signals_of(before, held_out),
                                 new_signals = signals_of(after, held_out), none;
   const ModelPoint model{.robot = before.robot};
@@ -28,7 +28,7 @@ GapAfter gap_after(const Dataset& before, const Dataset& after, const std::vecto
                                       .before = model,
                                       .after = ModelPoints(new_signals.size(), model),
                                       .noise_floor_percent = noise_floor_percent,
-                                      .battery_floor_percent = noise_floor_percent,
+                                      .battery_floor_percent = battery_floor_percent,
                                       .bootstrap = bootstrap,
                                       .fitted_signals = none,
                                       .fitted = model})};

@@ -19,6 +19,6 @@ struct GapAfter {
 /// motion.
 [[nodiscard]] GapAfter gap_after(const Dataset& before, const Dataset& after,
                                  const std::vector<std::string>& held_out, double noise_floor_percent,
-                                 std::size_t bootstrap = 400);
+                                 double battery_floor_percent, std::size_t bootstrap = 400);
 
 }  // namespace joulepath

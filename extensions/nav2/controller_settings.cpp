@@ -350,7 +350,11 @@ class ControllerReader {
   /// Zero and `.nan` are no limit.
   static void take_least(ControllerFile& settings, Field field, Sign sign, const Node& value) {
     if (value.kind() == Value::Kind::scalar && is_nan(value.text())) return;
-    if (field == nullptr || (sign == Sign::reverse && value.number() > 0)) return;
+    if (field == nullptr) return;
+    if (sign == Sign::reverse && value.number() >= 0) {
+      settings.*field = 0.0;  // one source that drives forward alone is enough
+      return;
+    }
     const bool down = sign == Sign::negative || sign == Sign::reverse;
     const double size = sign == Sign::either ? std::abs(value.number())
                         : down               ? -value.number()

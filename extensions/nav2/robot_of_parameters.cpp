@@ -45,7 +45,7 @@ void state_limits(const std::string& file, RobotDraft& draft) {
     // A controller without a deceleration brakes as it accelerates.
     const bool as_up = stated == &ControllerFile::deceleration_m_s2 && !(settings.*stated);
     const auto field = as_up ? &ControllerFile::acceleration_m_s2 : stated;
-    if (!(settings.*field)) continue;
+    if (!(settings.*field) || *(settings.*field) == 0) continue;
     const auto at = std::ranges::find(settings.sizes, std::pair(field, *(settings.*field)));
     const auto i = static_cast<std::size_t>(at - settings.sizes.begin());
     draft.state(key, *(settings.*field),

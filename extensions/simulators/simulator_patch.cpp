@@ -55,13 +55,6 @@ class ModelText {
   void set_radius(Side side, double factor) {
     for (const MechanismLink* link : parts_.links[side])
       for (const XmlElement& shape : shapes(xml_.element(link->element))) scale_radius(shape, factor);
-    const auto plugin = [&](const char* name) {
-      for (const XmlElement& element : xml_.root().descendants(name))
-        if (element.parent()->name() == "plugin")
-          edits_.set_text(element.index(), number_text(factor * element.number(element.text())));
-    };
-    if (side == Side::right) return;  // one value for both
-    for (const char* name : {"wheel_radius", "wheel_diameter", "wheelDiameter"}) plugin(name);
   }
 
   void add_yaw_inertia(double change_kg_m2) {
@@ -86,7 +79,9 @@ class ModelText {
       const auto pose = inertial->find("pose");
       if (!pose)
         return edits_.insert_child(inertial->index(), "<pose>" + number_text(change_m) + " 0 0 0 0 0</pose>");
-      return edits_.set_text(pose->index(), list_text(pose->numbers(pose->text(), 0), 0, change_m));
+      std::vector<double> numbers = pose->numbers(pose->text(), 0);
+      if (numbers.empty()) numbers.assign(6, 0.0);
+      return edits_.set_text(pose->index(), list_text(std::move(numbers), 0, change_m));
     }
     const auto origin = inertial->find("origin");
     if (!origin)
@@ -142,7 +137,11 @@ class ModelText {
   }
 
   std::vector<XmlElement> shapes(const XmlElement& link) const {
-    if (is_mjcf()) return link.children("geom");
+    if (is_mjcf()) {
+      std::vector<XmlElement> geoms = link.children("geom");
+      std::erase_if(geoms, [](const XmlElement& geom) { return geom.attribute("type") == "box"; });
+      return geoms;
+    }
     std::vector<XmlElement> found;
     for (const XmlElement& collision : link.children("collision"))
       if (const auto geometry = collision.find("geometry"))
@@ -270,6 +269,8 @@ std::optional<Edit> edit_of(const EffectSetting& effect, const DriveParts& parts
     return joint_edit(kFriction, "friction", parts,
                       {force_N * parts.radius_m.left, force_N * parts.radius_m.right});
   }
+  const bool sees_radii = parts.radius_m.left > 0 && parts.radius_m.right > 0;
+  if (name.starts_with("wheel_radius") && !sees_radii) return std::nullopt;
   if (name == "wheel_radius_error") return radius_edit(parts, both(1 + fraction));
   if (name == "wheel_radius_mismatch") return radius_edit(parts, {1 + fraction / 2, 1 - fraction / 2});
   if (name == "yaw_inertia_error") {
@@ -328,6 +329,7 @@ bool agree(double a, double b) {
 /// What changed, if a model reads back with the intended values; empty otherwise.
 std::string read_back(const Edit& edit, const EffectSetting& effect, const DriveParts& before,
                       const DriveParts& after) {
+  if (!agree(before.mass_kg, after.mass_kg)) return "";
   if (edit.quantity == nullptr) return values_text(effect);
   Sided<std::string> text;
   for (const Side side : kSides) {
@@ -343,6 +345,16 @@ std::string read_back(const Edit& edit, const EffectSetting& effect, const Drive
   return edit.quantity->name + ": " + sides;
 }
 
+/// The same for a text that may have become none of a model.
+std::string read_back_of(const Edit& edit, const EffectSetting& effect, const ModelText& model,
+                         const std::string& file, const std::vector<std::string>& wheels) {
+  try {
+    return read_back(edit, effect, model.parts(), ModelText(file, model.text(), wheels).parts());
+  } catch (const ConfigError&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 SimulatorPatch simulator_patch(const std::string& file, const std::vector<EffectSetting>& effects,
@@ -354,8 +366,7 @@ SimulatorPatch simulator_patch(const std::string& file, const std::vector<Effect
     ModelText model(file, patch.text, wheels);
     const auto edit = edit_of(effect, model.parts());
     const bool changed = edit && edit->apply(model) && model.text() != patch.text;
-    const std::string what =
-        changed ? read_back(*edit, effect, model.parts(), ModelText(file, model.text(), wheels).parts()) : "";
+    const std::string what = changed ? read_back_of(*edit, effect, model, file, wheels) : "";
     if (what.empty()) {
       patch.not_in_model.push_back({effect_label(effect), by_hand(effect, model.is_mjcf())});
       continue;

@@ -23,10 +23,10 @@ struct SimulatorPatch {
   std::vector<Remainder> not_in_model{};
 };
 
-/// Adds each effect to the model. A change is made only where the patched file reads back with the intended
-/// value; an effect without a counterpart in the file is told in `not_in_model`. `wheels`: as in draft_of().
-/// The load on the wheels is that of the model. Throws ConfigError for a file that is no model with two drive
-/// wheels.
+/// Adds each effect to the model. A change of friction, damping, radius, yaw inertia or center of mass is
+/// made only where the patched file reads back with the intended value; an effect without a counterpart in
+/// the file is told in `not_in_model`. `wheels`: as in draft_of(). The load on the wheels is that of the
+/// model. Throws ConfigError for a file that is no model with two drive wheels.
 [[nodiscard]] SimulatorPatch simulator_patch(const std::string& file,
                                              const std::vector<EffectSetting>& effects,
                                              const std::vector<std::string>& wheels);

@@ -99,7 +99,14 @@ void XmlEdits::set_attribute(std::size_t element, const std::string& name, const
 void XmlEdits::set_text(std::size_t element, const std::string& value) {
   const Tag& tag = tags_.at(element);
   if (tag.is_empty) return insert_child(element, value);
-  std::size_t begin = tag.end, end = text_.find("</", tag.end);
+  std::size_t begin = tag.end, end = text_.find('<', begin);
+  while (text_.compare(end, 4, "<!--") == 0) {  // the text stands behind comments, or ends at one
+    if (!std::all_of(text_.begin() + static_cast<std::ptrdiff_t>(begin),
+                     text_.begin() + static_cast<std::ptrdiff_t>(end), is_blank))
+      break;
+    begin = after(text_, "-->", end);
+    end = text_.find('<', begin);
+  }
   while (begin < end && is_blank(text_[begin])) ++begin;
   while (end > begin && is_blank(text_[end - 1])) --end;
   replace(begin, end, value);

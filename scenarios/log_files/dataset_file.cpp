@@ -107,7 +107,8 @@ class RunReader {
   /// The prediction of a run that is read, from another directory.
   void read_prediction_in(const std::string& directory, const Node& node, Run& run) {
     const Node predicted = node["predicted"];
-    const auto file = std::filesystem::path(directory) / std::filesystem::path(predicted.text()).filename();
+    auto file = std::filesystem::path(directory) / predicted.text();  // as deep as predicted: says, or flat
+    if (!std::filesystem::exists(file)) file = std::filesystem::path(directory) / file.filename();
     if (!std::filesystem::exists(file))
       predicted.fail_found("no file " + file.string(), "a log of that name for each run with `predicted:`");
     read_predicted(predicted, file.string(), sources_of_run(node, sources_), run);

@@ -13,7 +13,7 @@ struct Forecast {
   std::vector<std::string> causes{};    ///< by name
   std::vector<std::string> held_out{};  ///< runs that judge
   std::string method{};                 ///< of the validation
-  double noise_floor_percent{};
+  double noise_floor_percent{}, battery_floor_percent{};
   double shrink_fraction{};
   Range95 shrink_interval_95{};
 };

@@ -39,7 +39,7 @@ class Notes {
     if (std::isfinite(value) && value > most) note(key, value, "at most ", most, why, slip);
   }
   void under(const std::string& key, double value, double least, const std::string& why, const char* slip) {
-    if (value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
+    if (std::isfinite(least) && value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
   }
   std::vector<std::string> take() { return std::move(notes_); }
 
@@ -76,7 +76,8 @@ void note_motors(const Robot& robot, Notes& notes) {
               " N m of friction resist; is gear_ratio inverse, or resistance_ohm in milliohm?");
     return;
   }
-  const Motor& motor = robot.motor.left;
+  const Motor &left = robot.motor.left, &right = robot.motor.right;
+  const Motor& motor = left.max_voltage_V <= right.max_voltage_V ? left : right;
   const double limit_m_s = robot.limits ? robot.limits->speed_m_s : kNoLimit;
   const std::string at_limit = "m/s of top speed by voltage for limits.speed_m_s";
   notes.over("motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",

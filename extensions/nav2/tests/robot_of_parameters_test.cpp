@@ -86,6 +86,14 @@ TEST(RobotOfParameters, SignsOfLeastSpeedsAndDecelerations) {
   auto forward = with("max_vel_x: 0.5, min_vel_x: 0.0, acc_lim_x: 1.0, decel_lim_x: -2.0");
   EXPECT_FALSE(forward.contains("limits.reverse_speed_m_s"));
   EXPECT_EQ(forward["limits.deceleration_m_s2"], "2");
+  auto both = values_in(draft_from(
+      {scratch.write(
+          "params.yaml",
+          "controller_server:\n  ros__parameters:\n    FollowPath: {max_vel_x: 0.5, min_vel_x: 0.0}\n"
+          "velocity_smoother:\n  ros__parameters: {max_velocity: [0.4, 0, 1], min_velocity: [-0.26, 0, "
+          "-1]}\n")},
+      {}));
+  EXPECT_FALSE(both.contains("limits.reverse_speed_m_s")) << "the controller drives forward alone";
   EXPECT_FALSE(with("vx_max: 0.5, vx_min: 0.1").contains("limits.reverse_speed_m_s"));
   EXPECT_EQ(with("vx_max: 0.5, vx_min: -0.35")["limits.reverse_speed_m_s"], "0.35");
   for (const char* decel : {"0.2", "-0.2"})

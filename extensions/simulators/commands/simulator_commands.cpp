@@ -77,9 +77,14 @@ class PatchPart : public DiagnosisPart {
     if (!file_.empty()) static_cast<void>(simulator_patch(file_, {}, wheels_));
   }
 
+  std::string asked_by() const override {
+    return !file_.empty() ? "--simulator-model" : !wheels_.empty() ? "--wheels" : "";
+  }
+
   std::vector<std::string> files() const override {
-    if (file_.empty()) return {};
-    return {patched(), "simulator_patch.diff", "simulator_patch.json"};
+    std::vector<std::string> names{"simulator_patch.diff", "simulator_patch.json"};
+    if (!file_.empty()) names.push_back(patched());
+    return names;
   }
 
   void write(const Diagnosis& diagnosis, OutputDirectory& out, std::ostream& summary) override {
@@ -87,8 +92,7 @@ class PatchPart : public DiagnosisPart {
     std::vector<EffectSetting> effects;
     for (const Cause& cause : diagnosis.causes) effects.push_back(cause.effect);
     const SimulatorPatch patch = simulator_patch(file_, effects, wheels_);
-    nlohmann::json json{{"schema", "joulepath/simulator_patch/1"},
-                        {"model", file_},
+    nlohmann::json json{{"model", file_},
                         {"patched", patched()},
                         {"changes", nlohmann::json::array()},
                         {"not_in_model", nlohmann::json::array()}};

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "extensions/simulators/mechanism_draft.hpp"
 #include "extensions/simulators/model_export.hpp"
@@ -165,6 +168,13 @@ TEST(XmlEdits, TagsAreFoundAsTheParserCountsThem) {
   EXPECT_EQ(edits.text(),
             "<?xml version='1.0'?>\n<!DOCTYPE a>\n<a b='z'><!-- <c/> --><![CDATA[<d>]]><e n=\"2\"/><f  g = "
             "\"3\" /></a>\n");
+}
+
+TEST(XmlEdits, TextsStandBesideComments) {
+  XmlEdits edits("<a><b><!-- was <c>0.1</c> -->0.2</b><b>0.3 <!-- CAD --></b></a>");
+  edits.set_text(1, "5");
+  edits.set_text(2, "6");
+  EXPECT_EQ(edits.text(), "<a><b><!-- was <c>0.1</c> -->5</b><b>6 <!-- CAD --></b></a>");
 }
 
 TEST(XmlEdits, TextsAndChildrenAreAddedToEmptyElements) {

@@ -35,9 +35,6 @@ class _Drive:
         import mujoco
 
         kinds = model.jnt_type
-        self.free = next((i for i in range(model.njnt) if kinds[i] == mujoco.mjtJoint.mjJNT_FREE), None)
-        if self.free is None:
-            raise refused("model", "no free joint", "a robot that a free joint carries")
         driven = {int(model.actuator_trnid[a][0]): a for a in range(model.nu)
                   if model.actuator_trntype[a] == mujoco.mjtTrn.mjTRN_JOINT and kinds[model.actuator_trnid[a][0]] == mujoco.mjtJoint.mjJNT_HINGE}
         joints = list(driven) if wheels is None else [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in wheels]
@@ -49,6 +46,11 @@ class _Drive:
         mujoco.mj_forward(model, data)
         if wheels is None and data.xanchor[joints[0]][1] < data.xanchor[joints[1]][1]:
             joints.reverse()
+        root = model.body_rootid[model.jnt_bodyid[joints[0]]]
+        free = [i for i in range(model.njnt) if kinds[i] == mujoco.mjtJoint.mjJNT_FREE and model.jnt_bodyid[i] == root]
+        if not free:
+            raise refused("model", "no free joint that carries the wheels", "a robot on a free joint")
+        self.pose_at, self.twist_at = int(model.jnt_qposadr[free[0]]), int(model.jnt_dofadr[free[0]])
         self.actuators = [driven[joint] for joint in joints]
         self.dofs = [int(model.jnt_dofadr[joint]) for joint in joints]
         gear = model.actuator_gear[self.actuators, 0]
@@ -74,7 +76,8 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
     ``model``: an MJCF file, or its text. ``robot``: its wheels turn body speeds into wheel speeds, its motors turn torques
     into currents. ``log``: ``time_s`` (N,) with commands (``command_linear_speed_m_s``, ``command_angular_speed_rad_s``), else
     wheel speeds, which a PI controller of 12 rad/s follows in the model. ``wheels``: the joints of the left and the right wheel,
-    where more than two are driven. Raises ConfigError for a model or a log without these.
+    where more than two are driven. A payload is the model's business: what the log says of one is not read. Raises
+    ConfigError for a model or a log without these.
     """
     import mujoco
 
@@ -83,6 +86,8 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
     built = mujoco.MjModel.from_xml_string(text) if text.lstrip().startswith("<") else mujoco.MjModel.from_xml_path(text)
     drive, data = _Drive(built, wheels), mujoco.MjData(built)
     time_s = _column(log, "time_s")
+    if len(time_s) < 2 or not np.all(np.diff(time_s) > 0):
+        raise refused("log", "times that do not rise", "two times or more, each later than the one before")
     wanted = _wheel_speeds(known, log)
     _place(built, data, drive, log)
     motor = known.motor
@@ -90,6 +95,8 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
     volts = _sides(motor["voltage_constant_V_s_rad"]) * _sides(motor["gear_ratio"])
     ohm = _sides(motor["resistance_ohm"])
     radius = _sides(known.geometry["wheel_radius_m"])
+    if np.allclose(drive.gain, per_ampere / ohm, rtol=1e-3):
+        drive.is_speed = False  # a motor whose control is a voltage, with 1 V s/rad at the wheel
     inertia = 0.5 * float(np.sum(built.body_mass)) * radius**2 + known.inertia["wheel_axle_inertia_kg_m2"]
     rows = np.empty((len(time_s), 10))
     integral, control = np.zeros(2), np.zeros(2)
@@ -114,7 +121,7 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
         current = data.actuator_force[drive.actuators] * drive.gear / per_ampere
         electrical = not drive.is_speed and np.all(drive.drag < 0)
         voltage = control if electrical else ohm * current + volts * speed
-        rows[k] = [*speed, *voltage, *current, *_pose(data), data.qvel[int(built.jnt_dofadr[drive.free]) + 5]]
+        rows[k] = [*speed, *voltage, *current, *_pose(data, drive), data.qvel[drive.twist_at + 5]]
     rows[:, 8] = np.unwrap(rows[:, 8])
     names = ("wheel_speed_left_rad_s", "wheel_speed_right_rad_s", "motor_voltage_left_V", "motor_voltage_right_V",
              "motor_current_left_A", "motor_current_right_A", "position_x_m", "position_y_m", "heading_rad", "gyro_yaw_rate_rad_s")
@@ -138,7 +145,10 @@ def _wheel_speeds(robot: Robot, log: Mapping[str, Any]) -> NDArray[np.float64]:
         if np.all(np.isfinite(v)) and np.all(np.isfinite(w)):
             half, radius = robot.geometry["half_track_m"], _sides(robot.geometry["wheel_radius_m"])
             return np.stack([(v - half * w) / radius[0], (v + half * w) / radius[1]])
-    return np.stack([_column(log, "wheel_speed_left_rad_s"), _column(log, "wheel_speed_right_rad_s")])
+    wheels = np.stack([_column(log, "wheel_speed_left_rad_s"), _column(log, "wheel_speed_right_rad_s")])
+    if not np.all(np.isfinite(wheels)):
+        raise refused("log", "a wheel speed that is missing", "a number in each row")
+    return wheels
 
 
 def _place(model: Any, data: Any, drive: _Drive, log: Mapping[str, Any]) -> None:
@@ -146,7 +156,7 @@ def _place(model: Any, data: Any, drive: _Drive, log: Mapping[str, Any]) -> None
     import mujoco
 
     mujoco.mj_step(model, data, SETTLE_STEPS)
-    start = int(model.jnt_qposadr[drive.free])
+    start = drive.pose_at
     pose = [float(np.asarray(log[name])[0]) if name in log else 0.0 for name in ("position_x_m", "position_y_m", "heading_rad")]
     data.qpos[start:start + 2] = pose[:2]
     data.qpos[start + 3:start + 7] = [math.cos(pose[2] / 2), 0, 0, math.sin(pose[2] / 2)]
@@ -155,9 +165,9 @@ def _place(model: Any, data: Any, drive: _Drive, log: Mapping[str, Any]) -> None
     mujoco.mj_forward(model, data)
 
 
-def _pose(data: Any) -> tuple[float, float, float]:
-    q = data.qpos[3:7]
-    return float(data.qpos[0]), float(data.qpos[1]), math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2))
+def _pose(data: Any, drive: _Drive) -> tuple[float, float, float]:
+    x, y, _, *q = data.qpos[drive.pose_at:drive.pose_at + 7]
+    return float(x), float(y), math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2))
 
 
 def read_log(file: str | os.PathLike[str]) -> Columns:
@@ -182,6 +192,8 @@ def predict_files(model: str | os.PathLike[str], robot: Robot | str | os.PathLik
     for log in logs:
         columns = predict(model, robot, read_log(log), wheels=wheels)
         file = folder / (FilePath(log).stem + ".csv")
+        if file.exists():
+            raise refused("out", str(file), "a folder without a log of that name: nothing is overwritten")
         with open(file, "w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream)
             writer.writerow(columns)
