@@ -100,7 +100,7 @@ std::string contents_words(const SimulatorGap& simulator) {
   if (simulator.is_another_robots) return "The robot file does not describe the robot of the simulator.";
   if (simulator.contents == Verdict::no_gap) return "The simulator contains nothing beyond the robot file.";
   if (simulator.contents == Verdict::too_little_data)
-    return "The simulator's logs are too few to tell what it contains beyond the robot file.";
+    return "Its logs are too few to tell what the simulator contains beyond the robot file.";
   const bool whole = simulator.contents == Verdict::explained;
   if (simulator.contains.empty()) return "What the simulator contains beyond the robot file has no name.";
   return "Beyond the robot file the simulator contains " + causes_words(simulator.contains) +
