@@ -66,7 +66,8 @@ class _Drive:
 
     def control(self, torque_Nm: NDArray[np.float64], speed_rad_s: NDArray[np.float64]) -> NDArray[np.float64]:
         wanted = (torque_Nm - self.drag * speed_rad_s) / self.gain
-        return np.clip(wanted, self.range[:, 0], self.range[:, 1])
+        allowed: NDArray[np.float64] = np.clip(wanted, self.range[:, 0], self.range[:, 1])
+        return allowed
 
 
 def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str], log: Mapping[str, Any], *,
