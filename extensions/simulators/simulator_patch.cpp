@@ -189,8 +189,10 @@ class ModelText {
         continue;
       }
       std::string child = value;
-      for (std::size_t k = names.size(); k-- > i;)
-        child = "<" + names[k] + ">" + child + "</" + names[k] + ">";
+      for (std::size_t k = names.size(); k-- > i;) {
+        child.insert(0, "<" + names[k] + ">");
+        child += "</" + names[k] + ">";
+      }
       return edits_.insert_child(at->index(), child);
     }
     edits_.set_text(at->index(), value);
