@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "model/printable.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/image.hpp"
+#include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
 namespace {
@@ -88,9 +88,8 @@ std::vector<std::string> map_notes(const std::string& file, const ReadOptions& o
     return std::lround(shade * 255) == kSavedAsUnknown && cell_value(shade, false, meaning) == 0;
   });
   if (saved_as_unknown > 0) {
-    char share[16];
-    std::snprintf(share, sizeof share, "%.3g",
-                  100.0 * static_cast<double>(saved_as_unknown) / static_cast<double>(image.shade.size()));
+    const std::string share =
+        three_digits(100.0 * static_cast<double>(saved_as_unknown) / static_cast<double>(image.shade.size()));
     notes.push_back(
         "free_thresh: " + root["free_thresh"].text() + " counts grey " + std::to_string(kSavedAsUnknown) +
         ", with which map savers mark unknown cells, as free floor: " + share + " % of the cells");

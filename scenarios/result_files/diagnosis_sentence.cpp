@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 #include "model/effects/effect_label.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
 namespace {
-
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string percent_text(double percent) { return three_digits(percent) + " %"; }
 

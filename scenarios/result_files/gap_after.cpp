@@ -1,23 +1,17 @@
 #include "scenarios/result_files/gap_after.hpp"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/text/significant.hpp"
+#include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
 namespace {
 
-std::string three_figures(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 /// "closed 92 % (95 %: 88 to 96 %)".
 std::string closed_words(double fraction, const Range95& range) {
-  return three_figures(100 * fraction) + " % (95 %: " + three_figures(100 * range.first) + " to " +
-         three_figures(100 * range.second) + " %)";
+  return three_digits(100 * fraction) + " % (95 %: " + three_digits(100 * range.first) + " to " +
+         three_digits(100 * range.second) + " %)";
 }
 
 }  // namespace
@@ -26,9 +20,9 @@ std::string after_sentence(const GapAfter& after, const Forecast& forecast) {
   const EnergyGap& energy = after.gap.energy;
   if (energy.before_J <= 0) return "No energy is measured on the runs that judge.";
   return std::string("The simulator's energy gap ") + (energy.after_J > energy.before_J ? "grew" : "shrank") +
-         " from " + three_figures(energy.before_percent) + " % to " + three_figures(energy.after_percent) +
+         " from " + three_digits(energy.before_percent) + " % to " + three_digits(energy.after_percent) +
          " % on " + std::to_string(after.runs.size()) + " runs (noise floor " +
-         three_figures(energy.noise_floor_percent) + " %): closed " +
+         three_digits(energy.noise_floor_percent) + " %): closed " +
          closed_words(energy.shrink_fraction, energy.shrink_interval_95) + "; forecast " +
          closed_words(forecast.shrink_fraction, forecast.shrink_interval_95) + ".";
 }
