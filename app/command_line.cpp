@@ -143,9 +143,11 @@ OptionRules& OptionRules::existing_path() {
 
 OptionRules& OptionRules::one_of(const std::vector<std::string>& words, const std::string& part) {
   const CLI::IsMember member(words);
-  const auto check = [member, part](std::string& text) {
+  const auto check = [member, part, words](std::string& text) {
     const auto extension = absent_extension(part, text);
-    return extension.empty() ? member(text) : absent_text(text, extension);
+    if (!extension.empty()) return absent_text(text, extension);
+    const std::string refusal = member(text);
+    return refusal.empty() ? refusal : refusal + did_you_mean(text, words);
   };
   option_->check(CLI::Validator(check, member.get_description()));
   return *this;
@@ -190,6 +192,10 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   const auto app = make_parser(commands, parsed.command);
   app->set_version_flag("--version", "joulepath " + version);
   if (argc < 2) return {.output = app->help(), .exit_code = kBadInput};
+  if (std::string_view(argv[1]) == "help") {  // `help plan` is `plan --help`
+    const char* const asked[] = {argv[0], argc > 2 ? argv[2] : "--help", "--help"};
+    return parse_command_line(argc > 2 ? 3 : 2, asked, commands, version);
+  }
   if (const auto message = unknown_command(argc, argv, commands); !message.empty())
     return {.error = message, .hint = "joulepath --help lists the commands", .exit_code = kBadInput};
   try {

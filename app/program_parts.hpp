@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command.hpp"
+#include "app/diagnose/diagnosis_part.hpp"
 #include "app/export_task.hpp"
 #include "app/jobs/job_part.hpp"
 #include "app/plan/plan_comparison.hpp"
@@ -27,6 +28,7 @@ struct ProgramParts {
   std::vector<ExtensionCommand> commands{};
   Makers<ExportTask> export_tasks{};
   Makers<PlanComparison> comparisons{};
+  Makers<DiagnosisPart> diagnosis_parts{};
   Makers<JobPart> job_parts{};
 
   void add(Maker<Command> make) { commands.push_back({extension, make}); }

@@ -65,16 +65,19 @@ def renewal_minutes():
     return {row[0]: float(row[1]) for row in rows}
 
 
+QUOTING = ("README.md", "docs/limits.md")
+
+
 def quoted_names(index, figures):
-    """Results that README quotes, by figure or by link."""
-    readme = (SOURCE / "README.md").read_text()
-    linked = {name for name, result in index.items() if f"results/{result['file']}" in readme}
-    return linked | {figure["result"] for figure in figures if figure["document"] == "README.md"}
+    """Results that README and the page of limits quote, by figure or by link."""
+    text = "".join((SOURCE / document).read_text() for document in QUOTING)
+    linked = {name for name, result in index.items() if f"results/{result['file']}" in text}
+    return linked | {figure["result"] for figure in figures if figure["document"] in QUOTING}
 
 
 def show(index, figures, most_changes):
     minutes, quoted = renewal_minutes(), quoted_names(index, figures)
-    print(f"{'result':20} {'commits since':>13} {'renewal':>10}  command   (*: README quotes it; at most {most_changes})")
+    print(f"{'result':20} {'commits since':>13} {'renewal':>10}  command   (*: README or docs/limits.md quotes it; at most {most_changes})")
     for name, result in sorted(index.items(), key=lambda item: -(age(item[1]) or 0)):
         known = age(result)
         took = f"{minutes[name]:.1f} min" if name in minutes else "unknown"
@@ -120,12 +123,12 @@ def wrong_figures(index, figures):
 
 
 def old_results(index, figures, most_changes):
-    """Quoted results that are too old. Of a campaign the document must name the commit instead."""
+    """Quoted results that are too old. Of a campaign that README quotes, README must name the commit instead."""
     readme = (SOURCE / "README.md").read_text()
     for name in sorted(quoted_names(index, figures)):
         result, changes = index[name], age(index[name])
         if result.get("campaign"):
-            if not any(commit[:7] in readme for commit in commits_of(result["file"])):
+            if f"results/{result['file']}" in readme and not any(commit[:7] in readme for commit in commits_of(result["file"])):
                 yield f"README.md quotes the campaign results/{result['file']} without its commit"
         elif changes is None or changes > most_changes:
             yield f"results/{result['file']} is {changes} commits behind its inputs (at most {most_changes}): {result['run']}"

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/foreign_robot.hpp"
@@ -13,6 +15,7 @@
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/next_run/next_run.hpp"
+#include "diagnosis/simulator/simulated_runs.hpp"
 #include "diagnosis/where/localize.hpp"
 
 namespace joulepath {
@@ -25,14 +28,6 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
           .data_checks = std::move(checks),
           .missing_channels = survey.missing_channels,
           .notes = survey.notes};
-}
-
-/// What the runs say of another simulator's predictions; where it has some, the verdict is on them.
-void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
-                     Diagnosis& d) {
-  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
-  d.simulator.model_verdict = d.verdict;
-  d.verdict = verdict_with(d.simulator);
 }
 
 /// Whether the checks found a fault of the drive's channels that is an excuse for other constants. A dead
@@ -58,17 +53,14 @@ std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, 
   return foreign_constants(dataset.robot, runs.signals, excused);
 }
 
-/// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs
-/// none of them.
+/// Causes relative to another robot's constants say nothing about this one.
 Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
                            std::vector<ForeignConstant> constants) {
   const Survey survey = survey_dataset(dataset, runs.signals);
-  Diagnosis d{.verdict = Verdict::unexplained,
-              .foreign_constants = std::move(constants),
-              .missing_channels = survey.missing_channels,
-              .notes = survey.notes};
-  judge_simulator(runs.signals, other_predictions(dataset, runs.signals, runs.options), d);
-  return d;
+  return {.verdict = Verdict::unexplained,
+          .foreign_constants = std::move(constants),
+          .missing_channels = survey.missing_channels,
+          .notes = survey.notes};
 }
 
 std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {
@@ -219,13 +211,11 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
   std::vector<RunApart> apart = leave_out_runs_apart(dataset, options, examined);
   const auto& [runs, survey, id, names, validation] = examined;
   const Examination x = examined.on(dataset, options);
-  const std::vector<OtherPrediction> others = other_predictions(dataset, runs.signals, runs.options);
   const Correction correction = correction_of(x, validation);
   Diagnosis d = conclusion(x, names, validation, options.bootstrap);
   d.runs_apart = std::move(apart);
-  judge_simulator(runs.signals, others, d);
-  d.where = localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
-  d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.simulator.model_verdict);
+  d.where = localize_gap(runs.signals, x.nominal(), id.equations.noise, options.bootstrap);
+  d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.verdict);
   d.isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                               {id.equations.noise, id.equations.run_variance, id.dispersion},
                               survey.invisible_effects, options.without);
@@ -233,7 +223,6 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
   d.missing_channels = survey.missing_channels;
   d.notes = joined({survey.notes,
                     taken_out(options.without),
-                    {told_by_others(dataset, d.simulator)},
                     d.notes,
                     correction.notes,
                     {told_by_energies(dataset, correction)}});
@@ -243,20 +232,109 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
   return d;
 }
 
+/// Of the robot against the file's model.
+Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
+  RunsByUse runs = sort_runs(dataset);
+  std::vector<DataCheck> checks = check_data(dataset, runs);
+  if (auto constants = constants_of_another_robot(dataset, runs, checks); !constants.empty())
+    return of_another_robot(dataset, runs, std::move(constants));
+  if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
+  if (runs.signals.empty()) return diagnose_energies(dataset, options);
+  return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
+}
+
+/// What a simulator's predictions hold beyond the file's model, and how they stand beside the robot's runs.
+void describe_simulator(const Dataset& dataset, const ComparedRuns& compared, const Diagnosis& contents,
+                        Diagnosis& d) {
+  SimulatorGap& simulator = d.simulator;
+  simulator.runs = compared.dataset.runs.size();
+  simulator.of_runs = static_cast<std::size_t>(std::ranges::count_if(dataset.runs, has_usable_log));
+  simulator.noise_floor_percent = d.gap.energy.noise_floor_percent;
+  simulator.contents = contents.verdict;
+  simulator.contains = contents.causes;
+  simulator.is_another_robots = !contents.foreign_constants.empty();
+  simulator.lacking_channels = compared.lacking;
+  simulator.robot = compared.dataset.robot;
+  for (std::size_t r = 0; r < compared.indices.size(); ++r)
+    simulator.deviations[compared.indices[r]] = *compared.dataset.runs[r].deviation;
+  for (const Alignment& alignment : compared.alignments) {
+    ++(alignment.by == AlignedBy::time      ? simulator.by_time
+       : alignment.by == AlignedBy::command ? simulator.by_command
+                                            : simulator.by_path);
+    simulator.motion_difference_percent =
+        std::max(simulator.motion_difference_percent, 100 * alignment.motion_difference);
+    if (std::abs(alignment.clock_offset_s) > std::abs(simulator.clock_offset_s))
+      simulator.clock_offset_s = alignment.clock_offset_s;
+  }
+}
+
+/// Faults of the robot's log; what the simulator's log shows as well is no fault but another model.
+std::vector<DataCheck> faults_of_robot(const Dataset& dataset, const RunsByUse& runs,
+                                       const Diagnosis& contents) {
+  if (!contents.foreign_constants.empty()) return {};
+  std::vector<DataCheck> checks = check_data(dataset, runs);
+  std::erase_if(checks, [&](const DataCheck& check) {
+    return std::ranges::any_of(contents.data_checks, [&](const DataCheck& shared) {
+      return shared.channel == check.channel && shared.kind == check.kind;
+    });
+  });
+  return checks;
+}
+
+/// A gap of the simulator that no cause explains and that calibration errors would explain is still one: a
+/// simulator's constants are what its user set.
+void judge_simulator(Diagnosis& d) {
+  if (d.verdict != Verdict::no_gap || d.gap.energy.before_percent <= 2 * d.gap.energy.noise_floor_percent ||
+      d.gap.energy.before_percent <= 100 * kMaterialEnergy)
+    return;
+  d.verdict = Verdict::unexplained;
+  d.leftover_significant = true;
+  d.leftover_description = "goes with constants within their uncertainty in the robot file";
+}
+
+/// Runs by their number in the whole dataset.
+void renumber(const std::vector<std::size_t>& indices, Diagnosis& d) {
+  for (DataCheck& check : d.data_checks)
+    for (std::size_t& run : check.runs) run = indices[run];
+  std::map<std::size_t, double> payload_kg;
+  for (const auto& [run, kg] : d.estimated_payload_kg) payload_kg[indices[run]] = kg;
+  d.estimated_payload_kg = std::move(payload_kg);
+}
+
+Diagnosis compared_with_simulator(const ComparedRuns& compared, const Diagnosis& contents,
+                                  const DiagnoseOptions& options) {
+  RunsByUse runs = sort_runs(compared.dataset);
+  if (auto checks = faults_of_robot(compared.dataset, runs, contents); !checks.empty())
+    return stopped_by(compared.dataset, runs, std::move(checks));
+  const std::vector<RunEnergy> energies =
+      run_energies(runs.signals, ModelPoints(runs.signals.size(), {.robot = compared.dataset.robot}));
+  Diagnosis d = diagnose_logs(compared.dataset, with_estimated_payloads(std::move(runs)), options);
+  d.simulator.gap_percent = energy_gap_percent(energies);
+  d.simulator.bias_percent = energy_bias_percent(energies);
+  judge_simulator(d);
+  return d;
+}
+
+/// Of the robot against the user's own simulator: the model is that of the robot file with what the
+/// simulator has beyond it, and what the simulator's predictions still have beyond that model is added.
+Diagnosis diagnose_simulator(const Dataset& dataset, const DiagnoseOptions& options) {
+  const Diagnosis contents = diagnose_robot(simulator_dataset(dataset), options);
+  const ComparedRuns compared = compare_runs(dataset, contents.corrected_robot.value_or(dataset.robot));
+  Diagnosis d = compared_with_simulator(compared, contents, options);
+  describe_simulator(dataset, compared, contents, d);
+  for (const DataCheck& check : contents.data_checks)
+    d.notes.push_back("the simulator's logs: " + check.channel + " " + check.kind + ", " + check.evidence);
+  renumber(compared.indices, d);
+  return d;
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   refuse_short_runs(dataset);
-  const auto examined = [&]() -> Diagnosis {
-    RunsByUse runs = sort_runs(dataset);
-    auto checks = check_data(dataset, runs);
-    if (auto constants = constants_of_another_robot(dataset, runs, checks); !constants.empty())
-      return of_another_robot(dataset, runs, std::move(constants));
-    if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
-    if (runs.signals.empty()) return diagnose_energies(dataset, options);
-    return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
-  };
-  Diagnosis diagnosis = examined();
+  Diagnosis diagnosis = std::ranges::any_of(dataset.runs, has_prediction)
+                            ? diagnose_simulator(dataset, options)
+                            : diagnose_robot(dataset, options);
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;
 }

@@ -534,4 +534,17 @@ inline constexpr double kVisibleSigmas = 2.0;
 /// Of the runs, where the dataset says nothing about their use. Chosen (0509).
 inline constexpr std::size_t kEnergyFolds = 4;
 
+// A simulator's logs beside the robot's (0514).
+
+/// Of the wheels' travel per time that a rest counts as, so that rests have an order. Chosen.
+inline constexpr double kTravelOfRest = 1e-3;
+/// Between the commands of two logs, at most. Declared.
+inline constexpr double kLargestClockOffset_s = 5.0;
+/// An offset that leaves less than this share of the commands' mean square is taken. Chosen.
+inline constexpr double kBetterOffset = 0.9;
+/// Of the wheel speeds (rms): alignments that differ by less are equally good. Chosen.
+inline constexpr double kSameMotion = 0.01;
+/// Of the wheel speeds (rms) after the best alignment: more is another motion. Declared.
+inline constexpr double kOtherMotion = 0.5;
+
 }  // namespace joulepath

@@ -30,7 +30,7 @@ struct EnergyEstimate {
 
 /// Power and energy from odometry: wheel speeds, or body speeds where a log has no wheels.
 ///
-///   wheel speeds -> v, omega -> slopes -> operating_point() -> P, E = \int P dt   [P1, Eqs. (28), (29),
+///   wheel speeds -> v, omega -> slopes -> operating_point() -> P, E = int P dt   [P1, Eqs. (28), (29),
 ///   (35)]
 ///
 /// A wheel slower than the noise of its speed counts as standing and has no friction loss.

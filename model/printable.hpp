@@ -11,7 +11,7 @@ namespace joulepath {
 [[nodiscard]] std::optional<std::size_t> first_byte_not_utf8(std::string_view text);
 
 /// The text, safe for terminals and JSON writers: control characters (C0, DEL, C1) and bytes that are not
-/// UTF-8 appear as `\x1b`, separators of lines and marks of the direction of writing as `\u2028`.
+/// UTF-8 appear as their codes (x1b), separators of lines and marks of the direction of writing too (u2028).
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// Whether no control character and no mark of the direction of writing moves what is printed after the text.

@@ -36,18 +36,18 @@ def package_of(file):
     raise SystemExit(f"no package owns {file}")
 
 
-def add_licenses(tree):
-    folder = next(tree.glob("*.dist-info")) / "licenses" / "bundled"
+def add_licenses(folder, libraries):
+    """Writes the copyright file of each library's package into the folder: {name as bundled: file on this machine}."""
     folder.mkdir(parents=True)
-    table, known = [], libraries_here()
-    for library in sorted(tree.glob("*.libs/*.so*")):
-        package = package_of(origin(library, known))
+    table = []
+    for name, file in sorted(libraries.items()):
+        package = package_of(file)
         text = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_text()
         (folder / f"{package}.txt").write_text(text)
-        for name in sorted(set(re.findall(r"/usr/share/common-licenses/([\w.+-]*\w)", text))):
-            if (COMMON / name).is_file():
-                (folder / f"{name}.txt").write_text((COMMON / name).read_text())
-        table.append(f"{library.name}\t{package}.txt\n")
+        for common in sorted(set(re.findall(r"/usr/share/common-licenses/([\w.+-]*\w)", text))):
+            if (COMMON / common).is_file():
+                (folder / f"{common}.txt").write_text((COMMON / common).read_text())
+        table.append(f"{name}\t{package}.txt\n")
     (folder / "LIBRARIES.tsv").write_text("".join(table))
     return len(table)
 
@@ -57,8 +57,10 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             run = [sys.executable, "-m", "wheel"]
             subprocess.run([*run, "unpack", "-d", scratch, wheel], check=True, stdout=subprocess.DEVNULL)
-            tree = next(pathlib.Path(scratch).iterdir())
-            print(f"{wheel.name}: {add_licenses(tree)} bundled libraries, each with its license")
+            tree, known = next(pathlib.Path(scratch).iterdir()), libraries_here()
+            bundled = {library.name: origin(library, known) for library in tree.glob("*.libs/*.so*")}
+            folder = next(tree.glob("*.dist-info")) / "licenses/bundled"
+            print(f"{wheel.name}: {add_licenses(folder, bundled)} bundled libraries, each with its license")
             subprocess.run([*run, "pack", "-d", wheel.parent, tree], check=True, stdout=subprocess.DEVNULL)
 
 

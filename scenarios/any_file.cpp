@@ -1,13 +1,18 @@
 #include "scenarios/any_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
+#include "model/abilities.hpp"
+#include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/file_kinds.hpp"
@@ -47,9 +52,26 @@ std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
   return notes;
 }
 
+/// "top speed 1.36 m/s by voltage and current, 17.8 J/m at 1 m/s, torque for a slope of 12 %, 24 kg"
+std::string abilities_text(const Robot& robot) {
+  const Abilities able = abilities_of(robot);
+  const std::string mass = four_digits(robot.total_mass_kg(0.0)) + " kg";
+  if (!able.can_move()) return mass + ", cannot move";
+  std::string text;
+  const auto add = [&](const std::string& before, double value, const std::string& after) {
+    if (std::isfinite(value)) append_item(text, before + four_digits(value) + after);
+  };
+  add("top speed ", able.top_speed_m_s, " m/s by voltage and current");
+  add("", able.energy_J_m, " J/m at " + four_digits(able.cruise_m_s) + " m/s");
+  add("torque for a slope of ", 100 * able.grade, " %");
+  append_item(text, mass);
+  add("", able.distance_m / 1000, " km per charge");
+  return text;
+}
+
 FileSummary summary_of_robot(const std::string& file) {
   const Robot robot = read_robot(file);
-  FileSummary summary{"robot", robot.name, robot_notes(robot)};
+  FileSummary summary{"robot", robot.name + ": " + abilities_text(robot), robot_notes(robot)};
   if (!robot.limits)
     summary.notes.push_back("no limits: diagnose, estimate and calibrate work, plan does not");
   if (!robot.effects.empty()) summary.text += ", " + counted(robot.effects.size(), "effect");
@@ -66,7 +88,10 @@ FileSummary summary_of_source(const RobotSource& source, const std::string& file
 
 FileSummary summary_of_map(const std::string& file, const ReadOptions& options) {
   const OccupancyGrid grid = read_map(file, {}, options);
-  return {"map", std::to_string(grid.width) + " x " + std::to_string(grid.height) + " cells",
+  return {"map",
+          std::to_string(grid.width) + " x " + std::to_string(grid.height) + " cells, " +
+              four_digits(grid.width * grid.resolution_m) + " x " +
+              four_digits(grid.height * grid.resolution_m) + " m",
           map_notes(file, options)};
 }
 
@@ -100,8 +125,16 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
 }
 
 FileSummary summary_of_log(const std::string& file) {
-  const RunLog log = read_run_log(file, Geometry{.wheel_radius_m = {1.0, 1.0}, .half_track_m = 1.0});
-  return {"run log", counted(log.trajectory.size(), "sample"), notes_of(log.artifacts)};
+  RunLog log = read_run_log(file, Geometry{.wheel_radius_m = {1.0, 1.0}, .half_track_m = 1.0});
+  const std::size_t samples = log.trajectory.size();
+  const Run run{.log = std::move(log.trajectory), .clock_origin_s = log.clock_origin_s};
+  for (const Implausible& clock : implausible_clock(run))
+    throw ConfigError({{file, 0, 0},
+                       "",
+                       clock.found,
+                       clock.accepted,
+                       clock.hint + " `columns:` with scale, in a dataset that names the log, converts"});
+  return {"run log", counted(samples, "sample"), notes_of(log.artifacts)};
 }
 
 FileSummary summary_of_path(const Path& path) {
@@ -161,7 +194,9 @@ const FileReader* reader_of(const std::string& given_kind, bool of_documents, co
 
 std::string checked_kinds() {
   std::string names = "robot, map, mission, path, dataset, run log";
-  for (const FileReader& reader : registry().files) names += ", " + reader.kind;
+  std::set<std::string> told;
+  for (const FileReader& reader : registry().files)
+    if (told.insert(reader.kind).second) names += ", " + reader.kind;
   return names + ", plan or diagnosis; " + robot_source_names();
 }
 
@@ -202,7 +237,9 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
                      : given_kind.empty() ? "a file of unknown kind"
                                           : "kind " + given_kind,
                      checked_kinds(),
-                     "a first line like `schema: joulepath/robot/1` states the kind"});
+                     file.ends_with(".jsonl")
+                         ? "`joulepath batch` reads lists of missions, one on each line"
+                         : "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 
 }  // namespace joulepath

@@ -40,6 +40,17 @@ std::string kind_by_keys(const Node& root) {
   return "";
 }
 
+constexpr int kDeepestNamespace = 3;
+
+/// Namespaces may stand around a node.
+bool has_ros_parameters(const Node& node, int depth) {
+  if (node.kind() != Value::Kind::map) return false;
+  const auto entries = node.entries();
+  return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
+    return entry.first == "ros__parameters" || (depth > 0 && has_ros_parameters(entry.second, depth - 1));
+  });
+}
+
 /// Formats of other programs, which have no schema line.
 bool is_foreign(const std::string& kind) {
   const auto is_named = [&](const auto& list, auto name) {
@@ -56,9 +67,7 @@ std::string inferred_kind(const Node& root) {
   if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar)
     return kind_and_version(line->text()).first;
   if (std::string kind = kind_by_keys(root); !kind.empty()) return kind;
-  for (const auto& [name, node] : root.entries())
-    if (node.kind() == Value::Kind::map && node.has("ros__parameters")) return kRosParameters;
-  return "";
+  return has_ros_parameters(root, kDeepestNamespace) ? kRosParameters : "";
 }
 
 void check_document(const Document& document, const std::string& kind, const Schema& schema) {

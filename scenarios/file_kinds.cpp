@@ -25,6 +25,7 @@ const std::vector<FileKind>& file_kinds() {
         {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
         {"plan", plan_schema, "result of plan: plan.json"},
         {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
+        {"after", after_schema, "result of diagnose --after: after.json"},
         {"edges", edges_schema, "result of export --to edges as JSON"},
         {"loss", loss_schema, "energy lost by the settings of an export"},
     };

@@ -16,7 +16,9 @@ std::string batch_examples() {
       "  joulepath batch scenarios/missions --out out/batch -j 2\n"
       "  joulepath batch missions.jsonl --out out/batch --resume\n";
   for (const auto& part : made(extension_parts().job_parts)) text += example_line("batch", part->example());
-  return text + "\nExit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n";
+  return text +
+         "\nEvery mission has a line in results.jsonl; its .status has the outcome. Exit code 1: the "
+         "input of some cannot be read; .message says why.\n";
 }
 
 class BatchCommand : public Command {
@@ -44,14 +46,15 @@ class BatchCommand : public Command {
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
     const std::string title = printable(std::filesystem::path(source_).filename().string());
+    int code = kDone;
     if (run.part) {
       run.part->write(out, jobs, *results, run, {.title = title});
     } else {
       add_timings(out, *results);
-      finish_batch(out, title, lines_of(*results), options_.common);
+      code = finish_batch(out, title, lines_of(*results), options_.common);
     }
     remove_journal(run.directory);
-    return kDone;
+    return code;
   }
 
  private:

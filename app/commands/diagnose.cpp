@@ -1,10 +1,15 @@
+#include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/diagnose/changed_simulator.hpp"
 #include "app/diagnose/diagnosis_results.hpp"
 #include "app/diagnose/left_out_effects.hpp"
 #include "app/output_directory.hpp"
+#include "app/program_parts.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/effects/effect_label.hpp"
@@ -61,7 +66,7 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
     out << '\n';
   }
   if (!d.pinned_combination.empty()) out << "  the data determine only: " << d.pinned_combination << '\n';
-  if (d.causes.empty() && file_verdict(d) != Verdict::no_gap)
+  if (d.causes.empty() && d.verdict != Verdict::no_gap)
     for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
   for (const UnknownCause& unknown : d.unknowns)
@@ -91,6 +96,7 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << diagnosis_meaning(d)
       << ' ' << next_step(d) << '\n';
+  if (const std::string simulator = simulator_words(d); !simulator.empty()) out << simulator << '\n';
   if (const std::string apart = runs_apart_words(d); !apart.empty()) out << apart << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;
@@ -105,14 +111,24 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
         << " by the model, not calibrated); joulepath experiment writes it\n";
 }
 
+using DiagnosisParts = std::vector<std::unique_ptr<DiagnosisPart>>;
+
+std::string diagnose_examples(const DiagnosisParts& parts) {
+  std::string text =
+      "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
+      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap\n"
+      "  joulepath diagnose dataset.yaml --out out/diagnosis --after changed_simulator\n";
+  for (const auto& part : parts) text += example_line("diagnose", part->example());
+  return text;
+}
+
 class Diagnose : public Command {
  public:
-  Diagnose()
+  explicit Diagnose(DiagnosisParts parts)
       : Command({.name = "diagnose",
                  .says = "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it",
-                 .examples =
-                     "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
-                     "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
+                 .examples = diagnose_examples(parts)}),
+        parts_(std::move(parts)) {}
 
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_,
@@ -126,16 +142,26 @@ class Diagnose : public Command {
         .comma_separated();
     line.flag("--signals", signals_,
               "write measured and predicted signals of every run into diagnosis.json, for the studio");
+    line.option(
+        "--after", after_,
+        "directory with the logs of the changed simulator, named as those under predicted:; compares them "
+        "with diagnosis.json in --out and writes after.json beside it");
     line.flag("--fail-on-gap", fail_on_gap_,
               "exit code 1 unless the verdict is no_gap and no run is left out");
+    for (const auto& part : parts_) part->declare(line);
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
+    if (!after_.empty()) return run_after();
     const std::set<std::string> without = left_out_effects(without_);
-    OutputDirectory out(out_,
-                        {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
-                        common_.force);
+    std::vector<std::string> files{"diagnosis.json", "report.html", "robot_corrected.yaml",
+                                   "dataset_corrected.yaml", "after.json"};
+    for (const auto& part : parts_) {
+      part->prepare();
+      std::ranges::copy(part->files(), std::back_inserter(files));
+    }
+    OutputDirectory out(out_, files, common_.force);
     const DiagnosisResults results = diagnosis_results(
         read_dataset_or_log(
             dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
@@ -148,24 +174,58 @@ class Diagnose : public Command {
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml",
                 corrected_dataset_text(results.dataset, diagnosis.corrected_instruments, out_));
+    std::ostringstream more;
+    for (const auto& part : parts_) part->write(diagnosis, out, more);
     out.commit();
     if (common_.json)
       std::cout << results.json;
     else if (!common_.quiet)
-      print_summary(std::cout, diagnosis);
+      print_summary(std::cout, diagnosis), std::cout << more.str();
     const bool gap = diagnosis.verdict != Verdict::no_gap || !diagnosis.runs_apart.empty();
     return fail_on_gap_ && gap ? kInfeasibleOrFailed : kDone;
   }
 
  private:
-  std::string dataset_{}, out_{}, robot_{};
+  /// Nothing is fitted again: options of a diagnosis have no meaning.
+  void refuse_options_of_a_diagnosis() const {
+    const auto refuse = [](const std::string& option) {
+      throw ConfigError({{option, 0, 0}, "", "a value together with --after", "no such option", ""});
+    };
+    for (const auto& [option, given] : {std::pair{"--without", !without_.empty()},
+                                        {"--signals", signals_},
+                                        {"--fail-on-gap", fail_on_gap_}})
+      if (given) refuse(option);
+    for (const auto& part : parts_)
+      if (const std::string option = part->asked_by(); !option.empty()) refuse(option);
+  }
+
+  int run_after() {
+    refuse_options_of_a_diagnosis();
+    OutputDirectory out(out_, {"after.json"}, common_.force);
+    const ReadOptions options{
+        .untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true};
+    const ChangedSimulator after =
+        changed_simulator(read_dataset(dataset_, options, robot_), out_ + "/diagnosis.json", after_, options);
+    out.write("after.json", after.json);
+    out.commit();
+    if (common_.json)
+      std::cout << after.json;
+    else if (!common_.quiet)
+      std::cout << after.sentence << '\n';
+    return kDone;
+  }
+
+  std::string dataset_{}, out_{}, robot_{}, after_{};
   std::vector<std::string> without_{};
+  DiagnosisParts parts_;
   bool signals_{}, fail_on_gap_{};
   CommonOptions common_{};
 };
 
 }  // namespace
 
-std::unique_ptr<Command> make_diagnose_command() { return std::make_unique<Diagnose>(); }
+std::unique_ptr<Command> make_diagnose_command() {
+  return std::make_unique<Diagnose>(made(extension_parts().diagnosis_parts));
+}
 
 }  // namespace joulepath

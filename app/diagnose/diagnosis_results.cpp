@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/diagnose/changed_simulator.hpp"
 #include "app/report/diagnosis_report.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
 #include "scenarios/result_files/decision_cost.hpp"
@@ -19,11 +20,14 @@ DiagnosisResults diagnosis_results(Dataset dataset, DiagnoseOptions options, con
   else
     describe_repairs(results.dataset, diagnosis.data_checks);
   if (diagnosis.corrected_robot) {
-    const DecisionCost cost = decision_cost(results.dataset.robot, *diagnosis.corrected_robot);
+    const DecisionCost cost =
+        decision_cost(diagnosis.simulator.runs > 0 ? diagnosis.simulator.robot : results.dataset.robot,
+                      *diagnosis.corrected_robot);
     diagnosis.decision_missions = cost.missions;
     diagnosis.joules_lost_percent = cost.joules_lost_percent;
   }
   results.json = diagnosis_json(diagnosis);
+  if (diagnosis.simulator.runs > 0) results.json = with_compared_logs(results.json, results.dataset);
   return results;
 }
 

@@ -1,5 +1,6 @@
 #include "app/jobs/job_results.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -7,12 +8,21 @@
 
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
+#include "model/printable.hpp"
 #include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kReasons = 5;  ///< that are printed
+
+/// Whether a line has no verdict on its mission: bad_input, environment_error, internal_error.
+bool has_failed(const nlohmann::json& line) {
+  const std::string status = line["status"];
+  return status == "bad_input" || status.ends_with("_error");
+}
 
 }  // namespace
 
@@ -43,16 +53,18 @@ void add_timings(OutputDirectory& out, const std::vector<JobResult>& results) {
   out.write("timings.jsonl", timings);
 }
 
-void finish_batch(OutputDirectory& out, const std::string& title, const std::vector<std::string>& lines,
-                  const CommonOptions& common) {
+int finish_batch(OutputDirectory& out, const std::string& title, const std::vector<std::string>& lines,
+                 const CommonOptions& common) {
   const std::string results = joined(lines);
   nlohmann::json missions = nlohmann::json::array();
   std::map<std::string, int> count;
+  std::vector<std::string> failed;
   double energy_J = 0.0;
   for (const std::string& line : lines) {
     missions.push_back(nlohmann::json::parse(line));
     ++count[missions.back()["status"].get<std::string>()];
     energy_J += missions.back().value("energy_J", 0.0);
+    if (has_failed(missions.back())) failed.push_back(missions.back().value("message", ""));
   }
   out.write("results.jsonl", results);
   out.write("report.html", report::batch_report_html({{"missions", std::move(missions)}}, title));
@@ -65,6 +77,11 @@ void finish_batch(OutputDirectory& out, const std::string& title, const std::vec
       std::cout << " " << number << " " << status << (status == "optimal" ? " on their paths" : "");
     std::cout << ", " << figure(energy_J, 6) << " J in all\nresults in " << out.path() << "\n";
   }
+  for (std::size_t k = 0; k < std::min(failed.size(), kReasons); ++k)
+    std::cerr << "joulepath: " << printable(failed[k]) << "\n";
+  if (failed.size() > kReasons)
+    std::cerr << "joulepath: " << failed.size() - kReasons << " more in results.jsonl (status, message)\n";
+  return failed.empty() ? kDone : kInfeasibleOrFailed;
 }
 
 }  // namespace joulepath

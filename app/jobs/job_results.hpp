@@ -24,7 +24,7 @@ void add_timings(OutputDirectory& out, const std::vector<JobResult>& results);
 
 /// Writes the results of a whole run and prints its summary: a run and the merge of its parts give the same
 /// bytes.
-void finish_batch(OutputDirectory& out, const std::string& title, const std::vector<std::string>& lines,
-                  const CommonOptions& common);
+[[nodiscard]] int finish_batch(OutputDirectory& out, const std::string& title,
+                               const std::vector<std::string>& lines, const CommonOptions& common);
 
 }  // namespace joulepath

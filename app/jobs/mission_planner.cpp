@@ -109,7 +109,7 @@ MissionRequest MissionPlanner::mission_of(const MissionItem& item, const Mission
 const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& mission) {
   ByteWriter key;
   key(mission.robot_file, mission.map_file, mission.keepout_file, mission.route_graph_file,
-      mission.clearance_m, mission.speed_mask.has_value());
+      mission.unknown_is_floor, mission.clearance_m, mission.speed_mask.has_value());
   if (mission.speed_mask) {
     const auto& [file, kind, base, multiplier] = *mission.speed_mask;
     key(file, kind, base, multiplier);

@@ -102,15 +102,19 @@ Columns compared(const RunSignals& run, const ModelPoint& nominal,
 }  // namespace
 
 std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dataset& dataset) {
-  const ModelPoint nominal{.robot = dataset.robot};
+  const SimulatorGap& simulator = diagnosis.simulator;
+  const ModelPoint nominal{.robot = simulator.runs > 0 ? simulator.robot : dataset.robot};
   std::optional<ModelPoint> corrected;
   if (diagnosis.corrected_robot || !diagnosis.corrected_instruments.empty())
-    corrected = ModelPoint{.robot = diagnosis.corrected_robot.value_or(dataset.robot),
+    corrected = ModelPoint{.robot = diagnosis.corrected_robot.value_or(nominal.robot),
                            .effects = diagnosis.corrected_instruments};
   std::vector<RunComparison> runs;
   for (std::size_t k = 0; k < dataset.runs.size() && runs.size() < kMostRuns; ++k) {
-    if (!has_usable_log(dataset.runs[k])) continue;
-    RunSignals signals = make_run_signals(dataset.runs[k], k, dataset.robot);
+    if (!has_usable_log(dataset.runs[k]) || (simulator.runs > 0 && !simulator.deviations.contains(k)))
+      continue;
+    Run run = dataset.runs[k];
+    if (simulator.runs > 0) run.deviation = simulator.deviations.at(k);
+    RunSignals signals = make_run_signals(run, k, nominal.robot);
     if (const auto estimated = diagnosis.estimated_payload_kg.find(k);
         estimated != diagnosis.estimated_payload_kg.end())
       signals.payload_kg.setConstant(estimated->second);

@@ -1,14 +1,14 @@
-"""Robots as MJCF of `export --to mjcf`, driven in MuJoCo against `simulate`; drafts of `init --from` against MuJoCo's compiler."""
+"""Robots as MJCF of `export --to mjcf`, driven in MuJoCo against `simulate`; drafts of `init --from` against other readers."""
 
 import argparse
 import csv
 import json
 import math
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 import numpy as np
 import yaml
@@ -16,7 +16,9 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build/release/bin/joulepath"
 sys.path.insert(0, str(ROOT / "benchmarks/peers"))
+sys.path.insert(0, str(ROOT / "benchmarks/models"))
 from mujoco_peer import PERIOD_S, SETTLE_S, drawn_W, execute, wheels_alone  # noqa: E402
+from stated import reached, stated  # noqa: E402
 
 ROBOTS = ["nomad_super_scout", "kobuki", "husky_a200", "amr_150kg", "tug_600kg"]
 RESERVE = 1.3  # of the time of least energy: a wheel controller keeps voltage for its corrections
@@ -65,15 +67,29 @@ def driven(name, folder):
     return simulated_J, float(drawn.sum() * PERIOD_S)
 
 
-def compiled(file, wheels):
-    """Chassis mass, yaw inertia and wheel values by MuJoCo's own compiler, with parallel axes by numpy."""
+KEYS = ["chassis_mass_kg", "chassis_yaw_inertia_kg_m2", "center_of_mass_offset_m", "half_track_m", "wheel_radius_m", "wheel_mass_kg", "wheel_axle_inertia_kg_m2"]
+RELATIVE, ABSOLUTE = 1e-4, 1e-9  # of two readings that agree
+ROUND = 1 / math.cos(math.pi / 16)  # a circle lies inside a regular polygon of 16 corners
+
+
+def shapes_of(model, data):
+    """Geoms that collide, as `reach` takes them, with their bodies."""
     import mujoco
 
-    text = None
-    if file.suffix == ".urdf":  # without the files of its meshes
-        text = re.sub(r"<mesh\b[^>]*?/>|<mesh\b[^>]*?>.*?</mesh>", '<sphere radius="0.001"/>', file.read_text(), flags=re.S)
-        text = re.sub(r"(<robot[^>]*>)", r'\1<mujoco><compiler fusestatic="false" discardvisual="true" inertiafromgeom="false" boundmass="1e-9" boundinertia="1e-12"/></mujoco>', text, count=1)
-    model = mujoco.MjModel.from_xml_string(text) if text else mujoco.MjModel.from_xml_path(str(file))
+    kinds = {int(getattr(mujoco.mjtGeom, f"mjGEOM_{kind.upper()}")): kind for kind in ("box", "sphere", "cylinder", "capsule")}
+    for g in range(model.ngeom):
+        body, size, at = model.geom_bodyid[g], model.geom_size[g], np.eye(4)
+        if body == 0 or not (model.geom_contype[g] or model.geom_conaffinity[g]):
+            continue
+        at[:3, :3], at[:3, 3] = data.geom_xmat[g].reshape(3, 3), data.geom_xpos[g]
+        yield body, (kinds.get(int(model.geom_type[g])), at, {"size": 2 * size, "radius": size[:1], "length": 2 * size[1:2]})
+
+
+def compiled(file, wheels):
+    """Values of an MJCF file by MuJoCo's own compiler, with parallel axes by numpy."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_path(str(file))
     data = mujoco.MjData(model)
     data.qpos[:] = model.qpos0
     for i in range(model.njnt):  # all hinges and slides at zero, as in a robot file's draft
@@ -83,27 +99,93 @@ def compiled(file, wheels):
     mujoco.mj_comPos(model, data)
     joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in wheels]
     bodies = [model.jnt_bodyid[j] for j in joints]
+    inertia = lambda b: (turn := data.ximat[b].reshape(3, 3)) @ np.diag(model.body_inertia[b]) @ turn.T
     rest = [b for b in range(1, model.nbody) if b not in bodies and model.body_mass[b] > 0]
     mass, places = model.body_mass[rest], data.xipos[rest]
     center = (mass[:, None] * places).sum(0) / mass.sum()
-    yaw = 0.0
-    for b, m, place in zip(rest, mass, places):
-        turn = data.ximat[b].reshape(3, 3)
-        yaw += (turn @ np.diag(model.body_inertia[b]) @ turn.T)[2, 2] + m * ((place - center)[:2] ** 2).sum()
-    axles = data.xanchor[joints]
-    return {"chassis_mass_kg": mass.sum(), "chassis_yaw_inertia_kg_m2": yaw, "half_track_m": np.linalg.norm(axles[0] - axles[1]) / 2,
-            "wheel_mass_kg": model.body_mass[bodies].mean()}
+    yaw = sum(inertia(b)[2, 2] + m * ((place - center)[:2] ** 2).sum() for b, m, place in zip(rest, mass, places))
+    axes, ends = data.xaxis[joints], data.xanchor[joints].copy()
+    shapes = list(shapes_of(model, data))
+    rounds = [next((s for at, s in shapes if at == b and s[0] not in ("box", None)), None) for b in bodies]
+    for i, shape in enumerate(rounds):
+        if shape:
+            ends[i] += axes[i] * (axes[i] @ (shape[1][:3, 3] - ends[i]))
+    left = (ends[0] - ends[1]) / np.linalg.norm(ends[0] - ends[1])
+    values = {"chassis_mass_kg": mass.sum(), "chassis_yaw_inertia_kg_m2": yaw, "half_track_m": np.linalg.norm(ends[0] - ends[1]) / 2,
+              "center_of_mass_offset_m": (center - ends.mean(0)) @ np.cross(left, [0, 0, 1]), "wheel_mass_kg": model.body_mass[bodies].mean(),
+              "wheel_axle_inertia_kg_m2": np.mean([a @ inertia(b) @ a + model.dof_armature[model.jnt_dofadr[j]] for a, b, j in zip(axes, bodies, joints)])}
+    if all(rounds):
+        values["wheel_radius_m"] = np.mean([shape[2]["radius"][0] for shape in rounds])
+    return values | reached([shape for _, shape in shapes], left, ends.mean(0))
+
+
+def flattened(robot):
+    one = lambda v: sum(map(float, v.values())) / 2 if isinstance(v, dict) else float(v)
+    return {key: one(value) for key, value in {**robot.get("geometry", {}), **robot.get("inertia", {})}.items()}
 
 
 def drafted(file, wheels, folder):
-    joulepath("init", folder / "draft", "--from", file, "--wheels", ",".join(wheels), "--force", "--quiet")
+    """Values of `init --from`, without `--wheels` where the program finds the drive wheels, and whether it does."""
+    command = ["init", folder / "draft", "--from", file, "--force", "--quiet"]
+    try:
+        joulepath(*command)
+        named = "found"
+    except RuntimeError:
+        joulepath(*command, "--wheels", ",".join(wheels))
+        named = "named"
     robot = yaml.safe_load((folder / "draft/robot.yaml").read_text())
-    return {**robot.get("geometry", {}), **robot.get("inertia", {})}
+    return flattened(robot), robot.get("footprint", {}).get("polygon_m"), named
+
+
+def agreed(ours, theirs):
+    return abs(ours - theirs) <= RELATIVE * abs(theirs) + ABSOLUTE
+
+
+def cell(ours, theirs):
+    if ours is None or theirs is None:
+        return "not stated" if ours is theirs else f"**{ours} for {theirs}**"
+    return f"{theirs:.5g}" if agreed(ours, theirs) else f"**{ours:.6g} for {theirs:.6g}**"
+
+
+def outline(polygon, sides):
+    """Length and width; the polygon holds the shapes exactly where they are boxes, and at most 2 % outside round ones."""
+    if polygon is None or sides is None:
+        return "not stated" if polygon is sides else "**one of two**"
+    x, y = np.array(polygon).T
+    ours = [x.max(), -x.min(), y.max(), -y.min()]
+    size = max(sides[0] + sides[1], sides[2] + sides[3])
+    fits = all(-RELATIVE * size <= a - b <= (ROUND - 1 + RELATIVE) * size for a, b in zip(ours, sides))
+    text = f"{sides[0] + sides[1]:.4g} x {sides[2] + sides[3]:.4g}"
+    return text if fits else f"**{ours[0] + ours[1]:.4g} x {ours[2] + ours[3]:.4g} for {text}**"
+
+
+def row(item, folder):
+    name, _, wheels = item.partition("@")
+    file, wheels = pathlib.Path(name), wheels.split(",")
+    ours, polygon, named = drafted(file, wheels, folder)
+    theirs = compiled(file, wheels) if file.suffix in (".xml", ".mjcf") else stated(file, wheels)
+    cells = [cell(ours.get(k), theirs.get(k)) for k in KEYS] + [outline(polygon, theirs.get("sides"))]
+    label = "/".join(file.parts[-2:]) if file.stem.startswith("model") else file.name
+    return f"| {label} | {named} | " + " | ".join(cells) + " |", any("**" in c for c in cells)
+
+
+def read(about, items, folder):
+    rows = [row(item, folder) for item in items]
+    wrong = sum(differs for _, differs in rows)
+    return ["", "## Read", "",
+            "Values of `init --from` beside those of another reader: MuJoCo's compiler for MJCF, `benchmarks/models/stated.py` for",
+            "URDF and SDF. A value stands once where both agree within 1e-4, else in bold as `ours for theirs`. *not stated*: neither",
+            "gives a value (wheels without a round collision shape; a footprint of meshes). Wheels are *found* without `--wheels`, or *named*",
+            "by it; then other wheels count as parts of the chassis. The footprint of round shapes may lie up to 2 % outside of them.", "",
+            textwrap.fill(f"{len(rows)} models, {wrong} of them with a difference. {about}", 110), "",
+            "| model | wheels | chassis, kg | yaw inertia, kg m2 | center of mass, m | half track, m | wheel radius, m | wheel, kg | axle inertia, kg m2 | footprint, m |",
+            "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|", *(text for text, _ in rows)]
 
 
 def main():
     options = argparse.ArgumentParser()
     options.add_argument("--note", default="")
+    options.add_argument("--about", default="", help="where the models come from")
     options.add_argument("models", nargs="*")
     options = options.parse_args()
     lines = ["# Models of simulators", "", options.note, "", "## Driven", "",
@@ -116,13 +198,7 @@ def main():
             simulated_J, mujoco_J = driven(name, folder)
             lines.append(f"| {name} | {simulated_J:.4g} | {mujoco_J:.4g} | {100 * (mujoco_J / simulated_J - 1):+.2f} % |")
         if options.models:
-            lines += ["", "## Read", "", "Values of `init --from` over those of MuJoCo's compiler.", "",
-                      "| model | chassis mass | yaw inertia | half track | wheel mass |", "|---|---:|---:|---:|---:|"]
-        for item in options.models:
-            name, _, wheels = item.partition("@")
-            ours, theirs = drafted(pathlib.Path(name), wheels.split(","), folder), compiled(pathlib.Path(name), wheels.split(","))
-            cells = [f"{ours[k] / theirs[k]:.4f}" if k in ours else "not stated" for k in ("chassis_mass_kg", "chassis_yaw_inertia_kg_m2", "half_track_m", "wheel_mass_kg")]
-            lines.append(f"| {pathlib.Path(name).name} | " + " | ".join(cells) + " |")
+            lines += read(options.about, options.models, folder)
     text = "\n".join(lines) + "\n"
     (ROOT / "benchmarks/results/models.md").write_text(text)
     print(text)

@@ -100,6 +100,12 @@ void check_robot(const Trajectory& log, const Geometry& geometry, Findings& find
 
 }  // namespace
 
+std::vector<Implausible> implausible_clock(const Run& run) {
+  Findings findings;
+  check_time(run, findings);
+  return findings;
+}
+
 std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot) {
   const Trajectory& log = run.log;
   Findings findings;

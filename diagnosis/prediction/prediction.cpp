@@ -187,6 +187,37 @@ std::optional<ContactCreep> creep_of(const Plant& plant, const RunSignals& signa
   return std::optional<ContactCreep>(std::in_place, plant, signals, force_N);
 }
 
+void add_where_known(const Eigen::VectorXd& deviation, Eigen::VectorXd& channel) {
+  if (deviation.size() > 0) channel += deviation;
+}
+
+/// A current that deviates takes the winding's voltage along where the simulator gives none.
+void add_motor_deviation(const RunSignals& signals, Side side, Prediction& out) {
+  const Eigen::VectorXd &current_A = signals.deviation.current_A[side],
+                        &voltage_V = signals.deviation.voltage_V[side];
+  if (voltage_V.size() == 0 && current_A.size() > 0)
+    out.voltage_V[side] += out.reading_resistance_ohm[side].cwiseProduct(current_A);
+  add_where_known(voltage_V, out.voltage_V[side]);
+  add_where_known(current_A, out.current_A[side]);
+  add_where_known(signals.deviation.power_W[side], out.power_W[side]);
+}
+
+/// Where the simulator gives no power of its battery, the supply gives what its motors take.
+void add_deviation(const RunSignals& signals, const PowerSupply& supply, Prediction& out) {
+  const DeviationOf<Eigen::VectorXd>& deviation = signals.deviation;
+  if (deviation.turning.left.size() == 0) return;
+  const Prediction model = out;
+  for (Side side : kSides) add_motor_deviation(signals, side, out);
+  add_where_known(deviation.battery_power_W, out.battery_power_W);
+  for (Eigen::Index j = 0; deviation.battery_power_W.size() == 0 && j < signals.size(); ++j)
+    out.battery_power_W[j] += supply_W(signals, supply, out, j) - supply_W(signals, supply, model, j);
+  add_where_known(deviation.battery_voltage_V, out.battery_voltage_V);
+  add_where_known(deviation.yaw_rate_rad_s, out.yaw_rate_rad_s);
+  add_where_known(deviation.heading_rad, out.heading_rad);
+  add_where_known(deviation.x_m, out.x_m);
+  add_where_known(deviation.y_m, out.y_m);
+}
+
 }  // namespace
 
 double supply_W(const RunSignals& signals, const PowerSupply& supply, const Prediction& prediction,
@@ -224,6 +255,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   });
   distort(split.instruments, point.channel_delay_s, signals, out);
   out.reading_resistance_ohm = reading_resistance_ohm(split, signals);
+  add_deviation(signals, plant.robot.power, out);
   return out;
 }
 

@@ -42,6 +42,8 @@ struct Prediction {
 [[nodiscard]] double supply_W(const RunSignals& signals, const PowerSupply& supply,
                               const Prediction& prediction, Eigen::Index j);
 
+/// Of the model; with a simulator's deviation (RunSignals::deviation) of the model and that, which is the
+/// simulator's prediction of the measured motion.
 [[nodiscard]] Prediction predict(const RunSignals& signals, const ModelPoint& point);
 
 }  // namespace joulepath

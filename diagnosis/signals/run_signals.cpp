@@ -330,6 +330,20 @@ void fill_pose(RunSignals& signals, const Thinner& thinner, const Trajectory& lo
   signals.y_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_y_m)));
 }
 
+/// A simulator's deviation at the run's samples. Where its wheels do not turn, dry friction has no known
+/// sign.
+void fill_deviation(RunSignals& signals, const SimulatorDeviation& deviation) {
+  const Samples at_s(signals.time_s.begin(), signals.time_s.end());
+  signals.deviation = deviation.of.changed<Eigen::VectorXd>([&](const Samples& series) {
+    if (series.empty()) return Eigen::VectorXd();
+    const Samples values = interpolate(deviation.time_s, series, at_s);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+  });
+  for (Side side : kSides)
+    for (Eigen::Index j = 0; j < signals.size(); ++j)
+      if (signals.deviation.turning[side][j] < 1) signals.turning[side][static_cast<std::size_t>(j)] = false;
+}
+
 }  // namespace
 
 void mark_conducting(RunSignals& run, const Robot& robot) {
@@ -379,6 +393,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   fill_motors(signals, thinner, log, robot, logged_wheels, options.channel_delay_s);
   fill_battery(signals, thinner, log);
   fill_pose(signals, thinner, log, heading);
+  if (run.deviation) fill_deviation(signals, *run.deviation);
   return signals;
 }
 

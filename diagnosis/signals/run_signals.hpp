@@ -86,6 +86,7 @@ struct RunSignals {
   /// Samples in which a measured current is beyond the driver's dead band; inside it the voltage is
   /// arbitrary. Empty without currents.
   Sided<std::vector<bool>> conducting{};
+  DeviationOf<Eigen::VectorXd> deviation{};  ///< of a simulator from the model, which predictions have added
 
   Eigen::Index size() const { return time_s.size(); }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/values/simulator_deviation.hpp"
 #include "model/config_error.hpp"
 #include "model/prescribed_motion.hpp"
 #include "model/robot.hpp"
@@ -34,7 +35,8 @@ enum class RunUse { any, diagnosis, validation };
 struct Run {
   std::string name{};  ///< the file as named in the dataset; `runs[3]` for a run with energies only
   Trajectory log{};    ///< payload_kg only where it changes; empty for a run with energies only
-  std::optional<Trajectory> predicted{};  ///< another simulator's prediction, its own time base
+  std::optional<Trajectory> predicted{};          ///< another simulator's prediction, its own time base
+  std::optional<SimulatorDeviation> deviation{};  ///< of `predicted` from the model; the model has it added
   std::optional<PrescribedMotion> motion{};
   std::optional<Sided<double>> measured_energy_J{};
   std::optional<double> battery_energy_Wh{};

@@ -61,18 +61,6 @@ struct GapReport {
          signal(gap.voltage_V) || signal(gap.position_m) || signal(gap.heading_rad) || signal(gap.battery_W);
 }
 
-/// The energy gap of another simulator (`predicted:`), over the runs that it predicts.
-struct SimulatorGap {
-  std::size_t runs{};     ///< whose energy it predicts; 0: no such run
-  std::size_t of_runs{};  ///< all that could be compared
-  double gap_percent{}, bias_percent{}, noise_floor_percent{};
-  Verdict model_verdict{};  ///< on the model of the robot file alone
-
-  [[nodiscard]] bool exceeds() const {
-    return runs > 0 && gap_percent > std::max(noise_floor_percent, 100 * kMaterialEnergy);
-  }
-};
-
 /// A run that no model of the other runs describes; nothing else of a diagnosis counts it.
 struct RunApart {
   std::string run{};
@@ -140,14 +128,35 @@ struct NextExperiment {
   double probability_settled{};  ///< that the run tells the true one from each other one
 };
 
+/// What the logs of the user's own simulator (`predicted:`) say: the whole diagnosis is then of the robot
+/// against that simulator.
+struct SimulatorGap {
+  std::size_t runs{};     ///< that it predicts; 0: none, the diagnosis is on the robot file's model
+  std::size_t of_runs{};  ///< of the dataset with a usable log
+  double gap_percent{}, bias_percent{}, noise_floor_percent{};  ///< of the energy of the measured motion
+  Verdict contents{};             ///< of its predictions alone against the robot file's model
+  std::vector<Cause> contains{};  ///< effects that it has beyond the robot file
+  bool is_another_robots{};       ///< the robot file does not describe what it simulates
+  std::size_t by_time{}, by_command{}, by_path{};          ///< runs by what aligns them
+  double motion_difference_percent{};                      ///< of the wheel speeds after that, the greatest
+  double clock_offset_s{};                                 ///< of its commands, the greatest
+  std::vector<std::string> lacking_channels{};             ///< compared with this program's model instead
+  Robot robot{};                                           ///< this program's model of what it simulates
+  std::map<std::size_t, SimulatorDeviation> deviations{};  ///< of its predictions from that, by run
+
+  /// Whether its gap is more than noise.
+  [[nodiscard]] bool exceeds() const {
+    return runs > 0 && gap_percent > std::max(noise_floor_percent, 100 * kMaterialEnergy);
+  }
+};
+
 /// The result of `diagnose`.
 struct Diagnosis {
   GapReport gap{};
   SimulatorGap simulator{};
   std::vector<RunApart> runs_apart{};
   std::vector<WhereCell> where{};
-  Verdict verdict{
-      Verdict::too_little_data};  ///< on `simulator` where it predicts runs, else on the file's model
+  Verdict verdict{Verdict::too_little_data};
   std::vector<Cause> causes{};
   std::vector<RankedEffect> ranking{};
   std::vector<UnknownCause> unknowns{};

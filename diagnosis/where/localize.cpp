@@ -75,10 +75,9 @@ class MovingMean {
 
 class Localizer {
  public:
-  Localizer(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
-            const ModelPoint& nominal, const NoiseModel& noise)
+  Localizer(const std::vector<RunSignals>& signals, const ModelPoint& nominal, const NoiseModel& noise)
       : nominal_(nominal), noise_(noise), ledger_(signals.size()) {
-    for (std::size_t r = 0; r < signals.size(); ++r) add_run(signals[r], others[r], r);
+    for (std::size_t r = 0; r < signals.size(); ++r) add_run(signals[r], r);
   }
   const GapLedger& ledger() const { return ledger_; }
 
@@ -102,8 +101,8 @@ class Localizer {
     return noise_.channel_sd[channel] * means_[channel][static_cast<std::size_t>(count)];
   }
 
-  void add_run(const RunSignals& run, const OtherPrediction& other, std::size_t r) {
-    const Prediction p = in_place_of(predict(run, nominal_), other);
+  void add_run(const RunSignals& run, std::size_t r) {
+    const Prediction p = predict(run, nominal_);
     const ResidualRows rows = residual_rows(run, nominal_, p);
     const auto half = std::lround(kGapWindow_s / run.period_s);
     for (std::size_t c : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight, kDriverPower})
@@ -189,10 +188,9 @@ class Localizer {
 
 }  // namespace
 
-std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
-                                    const std::vector<OtherPrediction>& others, const ModelPoint& nominal,
+std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals, const ModelPoint& nominal,
                                     const NoiseModel& noise, std::size_t bootstrap) {
-  return Localizer(signals, others, nominal, noise)
+  return Localizer(signals, nominal, noise)
       .ledger()
       .cells({"phase", "wheel", "speed", "payload", "floor", "heading", "direction", "time_of_day", "channel",
               "run"},

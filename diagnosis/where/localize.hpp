@@ -4,16 +4,13 @@
 
 #include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/where/gap.hpp"
-#include "diagnosis/where/other_prediction.hpp"
 
 namespace joulepath {
 
 /// Localizes the power gap: per axis (phase, wheel, speed, payload, floor, heading, direction, time of day,
 /// run, channel) the share of the summed absolute gap, with the expected share of noise subtracted and an
-/// interval over runs. The shares over one axis add up to 1. Runs with another simulator's prediction
-/// (`others`, one entry per run) are compared with that prediction.
+/// interval over runs. The shares over one axis add up to 1.
 [[nodiscard]] std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
-                                                  const std::vector<OtherPrediction>& others,
                                                   const ModelPoint& nominal, const NoiseModel& noise,
                                                   std::size_t bootstrap);
 

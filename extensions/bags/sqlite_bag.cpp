@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 
@@ -78,11 +79,18 @@ std::string immutable_uri(const std::string& file) {
   return uri + "?immutable=1";
 }
 
+/// Whether a rollback journal holds a transaction. A finished one may stay, with zeros as its header
+/// (journal_mode PERSIST).
+bool is_hot(const std::string& journal) {
+  std::ifstream stream(journal, std::ios::binary);
+  const char first = static_cast<char>(stream.get());
+  return stream && first != 0;
+}
+
 /// A rollback journal holds what a recorder had not finished: the file alone may be half of a transaction.
 void refuse_journal(const std::string& file, const NamedBy& named_by) {
-  std::error_code none;
   const std::string journal = file + "-journal";
-  if (const auto bytes = std::filesystem::file_size(journal, none); !none && bytes > 0)
+  if (is_hot(journal))
     throw named_by.error(file, "an unfinished transaction in " + journal, "a bag that its recorder closed",
                          "sqlite3 " + file + " \"PRAGMA user_version\" finishes it");
 }

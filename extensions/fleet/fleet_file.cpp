@@ -48,6 +48,7 @@ MissionRequest floor_from(const Node& root, const ReadOptions& options) {
     return node ? resolve_file(*node, options) : std::string();
   };
   MissionRequest floor{.map_file = file_named("map"),
+                       .unknown_is_floor = root.text_or("unknown", "occupied") == "free",
                        .keepout_file = file_named("keepout"),
                        .route_graph_file = file_named("route_graph"),
                        .clearance_m = root.number_or("clearance_m", 0.0),

@@ -52,8 +52,8 @@ Schema fleet_schema() {
       required("missions", list(fleet_mission_schema(), 1))};
   for (Schema::Key& key : mission_schema().keys) {
     const bool is_needed = key.name == "map" || key.name == "stations";
-    if (!is_needed && key.name != "keepout" && key.name != "speed_mask" && key.name != "route_graph" &&
-        key.name != "clearance_m")
+    if (!is_needed && key.name != "unknown" && key.name != "keepout" && key.name != "speed_mask" &&
+        key.name != "route_graph" && key.name != "clearance_m")
       continue;
     key.required = is_needed;
     keys.push_back(std::move(key));

@@ -78,6 +78,7 @@ Json type_json(const FleetType& type) {
 /// The keys of a mission file that state the floor.
 Json floor_json(const MissionRequest& floor) {
   Json json{{"map", floor.map_file}, {"clearance_m", floor.clearance_m}};
+  if (floor.unknown_is_floor) json["unknown"] = "free";
   for (const auto& [key, file] :
        {std::pair{"keepout", floor.keepout_file}, {"route_graph", floor.route_graph_file}})
     if (!file.empty()) json[key] = file;

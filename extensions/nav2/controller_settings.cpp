@@ -16,8 +16,9 @@ namespace {
 
 using Field = std::optional<double> ControllerFile::*;
 
-/// Decelerations are written as negative numbers.
-enum class Sign { positive, negative };
+/// Decelerations are written as negative numbers, by old controllers as positive ones. Only a negative least
+/// speed allows driving backward.
+enum class Sign { positive, negative, either, reverse };
 
 /// A scalar parameter.
 struct Parameter {
@@ -32,14 +33,16 @@ constexpr Parameter kParameters[] = {
     {"max_linear_vel", &ControllerFile::speed_m_s},  // RPP since its dynamic window
     {"max_angular_vel", &ControllerFile::yaw_rate_rad_s},
     {"max_linear_accel", &ControllerFile::acceleration_m_s2},
-    {"max_linear_decel", &ControllerFile::deceleration_m_s2, Sign::negative},
+    {"max_linear_decel", &ControllerFile::deceleration_m_s2, Sign::either},
     {"max_angular_decel", &ControllerFile::yaw_deceleration_rad_s2, Sign::negative},
     {"vx_max", &ControllerFile::speed_m_s},  // MPPI
+    {"vx_min", &ControllerFile::reverse_speed_m_s, Sign::reverse},
     {"wz_max", &ControllerFile::yaw_rate_rad_s},
     {"ax_max", &ControllerFile::acceleration_m_s2},
     {"ax_min", &ControllerFile::deceleration_m_s2, Sign::negative},
     {"az_max", &ControllerFile::yaw_acceleration_rad_s2},
     {"max_vel_x", &ControllerFile::speed_m_s},  // DWB and TEB
+    {"min_vel_x", &ControllerFile::reverse_speed_m_s, Sign::reverse},
     {"max_speed_xy", &ControllerFile::speed_m_s},
     {"max_vel_theta", &ControllerFile::yaw_rate_rad_s},
     {"acc_lim_x", &ControllerFile::acceleration_m_s2},
@@ -60,6 +63,7 @@ struct PlanarParameter {
 /// Of the velocity smoother, as [x, y, theta] or [x, y, z, roll, pitch, yaw].
 constexpr PlanarParameter kTwists[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
+    {"min_velocity", &ControllerFile::reverse_speed_m_s, nullptr, Sign::reverse},
     {"max_accel", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
     {"max_decel", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
      Sign::negative},
@@ -72,6 +76,7 @@ struct AxisParameter {
 };
 constexpr AxisParameter kAxes[] = {
     {{"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s}, "has_velocity_limits"},
+    {{"min_velocity", &ControllerFile::reverse_speed_m_s, nullptr, Sign::reverse}, "has_velocity_limits"},
     {{"max_acceleration", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
      "has_acceleration_limits"},
     {{"min_acceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
@@ -319,8 +324,8 @@ class ControllerReader {
     Driver driver;
     for (const auto& [key, value] : group.values) {
       const PlanarParameter* row = row_of(kTwists, key);
-      if (row == std::end(kTwists) || value.kind() != Value::Kind::list) continue;
-      const std::vector<Node> items = value.items();
+      if (row == std::end(kTwists)) continue;
+      const std::vector<Node> items = value.kind() == Value::Kind::list ? value.items() : std::vector<Node>{};
       if (items.size() != 3 && items.size() != 6) value.fail("[x, y, theta] or [x, y, z, roll, pitch, yaw]");
       take_least(driver.settings, row->along, row->sign, items.front());
       take_least(driver.settings, row->about, row->sign, items.back());
@@ -345,8 +350,15 @@ class ControllerReader {
   /// Zero and `.nan` are no limit.
   static void take_least(ControllerFile& settings, Field field, Sign sign, const Node& value) {
     if (value.kind() == Value::Kind::scalar && is_nan(value.text())) return;
-    const bool down = sign == Sign::negative;
-    const double size = down ? -value.number() : value.number();
+    if (field == nullptr) return;
+    if (sign == Sign::reverse && value.number() >= 0) {
+      settings.*field = 0.0;  // one source that drives forward alone is enough
+      return;
+    }
+    const bool down = sign == Sign::negative || sign == Sign::reverse;
+    const double size = sign == Sign::either ? std::abs(value.number())
+                        : down               ? -value.number()
+                                             : value.number();
     if (size == 0) return;
     if (!(size >= kLeastSize && size <= kMostSize))
       value.fail(down ? "from -100 to -0.001 (SI units; decelerations are negative), or 0: no limit"
@@ -365,9 +377,9 @@ class ControllerReader {
   static void merge(const ControllerFile& from, ControllerFile& into) {
     for (const Field field :
          {&ControllerFile::speed_m_s, &ControllerFile::acceleration_m_s2, &ControllerFile::deceleration_m_s2,
-          &ControllerFile::yaw_rate_rad_s, &ControllerFile::turn_rate_rad_s,
-          &ControllerFile::yaw_acceleration_rad_s2, &ControllerFile::yaw_deceleration_rad_s2,
-          &ControllerFile::turn_acceleration_rad_s2})
+          &ControllerFile::reverse_speed_m_s, &ControllerFile::yaw_rate_rad_s,
+          &ControllerFile::turn_rate_rad_s, &ControllerFile::yaw_acceleration_rad_s2,
+          &ControllerFile::yaw_deceleration_rad_s2, &ControllerFile::turn_acceleration_rad_s2})
       if (const std::optional<double>& value = from.*field)
         into.*field = std::min((into.*field).value_or(*value), *value);
     into.read.insert(into.read.end(), from.read.begin(), from.read.end());

@@ -12,6 +12,7 @@ namespace joulepath {
 /// drive. Or those of each leg in a result of export --to controller.
 struct ControllerFile {
   std::optional<double> speed_m_s{}, acceleration_m_s2{}, deceleration_m_s2{};
+  std::optional<double> reverse_speed_m_s{};                  ///< no comparison needs it
   std::optional<double> yaw_rate_rad_s{}, turn_rate_rad_s{};  ///< in all motion; in turns in place
   std::optional<double> yaw_acceleration_rad_s2{}, yaw_deceleration_rad_s2{}, turn_acceleration_rad_s2{};
   std::vector<std::string> read{};  ///< the keys that were used, in the file's order

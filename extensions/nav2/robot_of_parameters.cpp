@@ -34,18 +34,23 @@ constexpr LimitOfSettings kLimitsOfSettings[] = {
     {"limits.speed_m_s", &ControllerFile::speed_m_s},
     {"limits.acceleration_m_s2", &ControllerFile::acceleration_m_s2},
     {"limits.deceleration_m_s2", &ControllerFile::deceleration_m_s2},
+    {"limits.reverse_speed_m_s", &ControllerFile::reverse_speed_m_s},
     {"limits.yaw_rate_rad_s", &ControllerFile::yaw_rate_rad_s},
     {"limits.yaw_acceleration_rad_s2", &ControllerFile::yaw_acceleration_rad_s2}};
 
 void state_limits(const std::string& file, RobotDraft& draft) {
   const ControllerFile settings = read_controller_settings(file);
   const std::string name = std::filesystem::path(file).filename().string();
-  for (const auto& [key, field] : kLimitsOfSettings) {
-    if (!(settings.*field)) continue;
+  for (const auto& [key, stated] : kLimitsOfSettings) {
+    // A controller without a deceleration brakes as it accelerates.
+    const bool as_up = stated == &ControllerFile::deceleration_m_s2 && !(settings.*stated);
+    const auto field = as_up ? &ControllerFile::acceleration_m_s2 : stated;
+    if (!(settings.*field) || *(settings.*field) == 0) continue;
     const auto at = std::ranges::find(settings.sizes, std::pair(field, *(settings.*field)));
     const auto i = static_cast<std::size_t>(at - settings.sizes.begin());
     draft.state(key, *(settings.*field),
-                name + " line " + std::to_string(settings.lines[i]) + ": " + settings.read[i]);
+                name + " line " + std::to_string(settings.lines[i]) + ": " + settings.read[i] +
+                    (as_up ? ", as no deceleration is stated" : ""));
   }
 }
 
@@ -93,12 +98,22 @@ bool is_parameter_file(const Document& document) {
 RobotDraft read_parameters_of_robot(const std::string& file, const std::vector<std::string>&) {
   const Document document = Document::load(file);
   RobotDraft draft;
-  const auto state = [&](const char* name, const char* key, double factor, const std::string& what) {
-    if (const auto value = parameter_named(document.root(), name); value && value->number() > 0)
-      draft.state(key, factor * value->number(), place_in_file(*value) + what);
+  const Node root = document.root();
+  const auto factor = [&](const char* name) {
+    const auto value = parameter_named(root, name);
+    return value ? value->number() : 1.0;
   };
-  state("wheel_radius", "geometry.wheel_radius_m", 1.0, "");
-  state("wheel_separation", "geometry.half_track_m", 0.5, ", half of it");
+  if (const auto radius = parameter_named(root, "wheel_radius"); radius && radius->number() > 0) {
+    const double left = factor("left_wheel_radius_multiplier"),
+                 right = factor("right_wheel_radius_multiplier");
+    draft.state("geometry.wheel_radius_m", left * radius->number(), right * radius->number(),
+                place_in_file(*radius) + (left != 1 || right != 1 ? " times the wheels' multipliers" : ""));
+  }
+  if (const auto track = parameter_named(root, "wheel_separation"); track && track->number() > 0) {
+    const double scale = factor("wheel_separation_multiplier");
+    draft.state("geometry.half_track_m", 0.5 * scale * track->number(),
+                place_in_file(*track) + ", half of it" + (scale != 1 ? " times its multiplier" : ""));
+  }
   state_footprint_of(document.root(), draft);
   try {
     state_limits(file, draft);

@@ -57,7 +57,7 @@ class GraphReader {
         .speed_limit_percent = read_limit(properties, "speed_limit", 0.1, "from 0.1 to 100 percent")};
     std::vector<std::vector<Node>> lines;
     const std::optional<Node> coordinates = geometry ? geometry->find("coordinates") : std::nullopt;
-    if (coordinates && geometry->text_or("type", "") == "MultiLineString")
+    if (coordinates && holds_lines(*coordinates))
       for (const auto& line : coordinates->items()) lines.push_back(line.items());
     else if (coordinates)
       lines.push_back(coordinates->items());
@@ -73,6 +73,13 @@ class GraphReader {
   RouteGraph take() { return std::move(graph_); }
 
  private:
+  /// By the depth of the lists: types are at times wrong, and the route server reads neither.
+  static bool holds_lines(const Node& coordinates) {
+    if (coordinates.kind() != Value::Kind::list || coordinates.items().empty()) return false;
+    const Node first = coordinates.items().front();
+    return first.kind() == Value::Kind::list && !first.items().empty() &&
+           first.items().front().kind() == Value::Kind::list;
+  }
   [[nodiscard]] bool at_node(std::size_t node, double x_m, double y_m) const {
     return std::hypot(graph_.nodes[node].x_m - x_m, graph_.nodes[node].y_m - y_m) < 1e-3;
   }

@@ -54,7 +54,8 @@ void read_drive_plugins(const XmlElement& root, Mechanism& mechanism) {
     for (const auto& [name, field, factor] : kLengthNames)
       if (const auto value = plugin.number_in(name); value && *value > 0)
         mechanism.*field =
-            StatedLength{factor * *value, plugin.find(name)->place() + ": " + name + " of the plugin"};
+            StatedLength{factor * *value, plugin.find(name)->place() + ": " +
+                                              (factor == 1.0 ? "" : "half of ") + name + " of the plugin"};
     for (const auto& [name, key, factor] : kLimitNames)
       if (const auto value = plugin.number_in(name); value && factor * *value > 0)
         mechanism.limits.push_back(

@@ -11,7 +11,8 @@ namespace joulepath {
 /// A rigid body with all joints at zero, in the frame of the model.
 struct MechanismLink {
   std::string name{};
-  std::string place{};  ///< "waffle.urdf line 12"
+  std::string place{};    ///< "waffle.urdf line 12"
+  std::size_t element{};  ///< of the file (XmlElement::index())
   Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};
   bool has_mass{};
   double mass_kg{};
@@ -26,6 +27,7 @@ struct MechanismLink {
 struct MechanismJoint {
   std::string name{};
   std::string place{};
+  std::size_t element{};
   std::string parent{}, child{};
   bool turns{};  ///< a hinge; others hold the child, as far as a robot file is concerned
   bool fixed{};

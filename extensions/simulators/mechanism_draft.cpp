@@ -54,6 +54,23 @@ class DraftOfMechanism {
     chassis_ = combined(chassis_links_);
   }
 
+  DriveParts parts() const {
+    DriveParts parts{.joint = {left_.joint, right_.joint}};
+    for (const MechanismLink& link : mechanism_.links)
+      for (const Side side : kSides)
+        if (names((side == Side::left ? left_ : right_).links, link.name)) parts.links[side].push_back(&link);
+    const auto heaviest = std::ranges::max_element(chassis_links_, {}, &MechanismLink::mass_kg);
+    if (chassis_.mass_kg > 0) parts.heaviest = *heaviest;
+    for (const Side side : kSides)
+      if (const DraftWheel& wheel = side == Side::left ? left_ : right_; wheel.shape)
+        parts.radius_m[side] = *wheel.shape->radius_m;
+    parts.chassis_mass_kg = chassis_.mass_kg;
+    parts.chassis_yaw_inertia_kg_m2 = chassis_.inertia_kg_m2(2, 2);
+    parts.center_of_mass_offset_m = (chassis_.center_m - middle_m_).dot(forward_);
+    parts.mass_kg = chassis_.mass_kg + left_.body.mass_kg + right_.body.mass_kg;
+    return parts;
+  }
+
   RobotDraft draft() {
     draft_.name = mechanism_.name;
     draft_.notes = mechanism_.notes;
@@ -85,7 +102,7 @@ class DraftOfMechanism {
                  ? "no drive plugin, transmission or actuator that names two drive wheels"
                  : std::to_string(driven.size()) + " driven joints: " +
                        text_of_list(driven, [](const MechanismJoint* joint) { return joint->name; }),
-             "init --wheels LEFT,RIGHT with two of: " + turning_names(),
+             "--wheels LEFT,RIGHT with two of: " + turning_names(),
              mechanism_.notes.empty()
                  ? "the model has two driven wheels; others count as parts of the chassis"
                  : mechanism_.notes.front());
@@ -261,6 +278,10 @@ class DraftOfMechanism {
 };
 
 }  // namespace
+
+DriveParts drive_parts_of(const Mechanism& mechanism, const std::vector<std::string>& wheels) {
+  return DraftOfMechanism(mechanism, wheels).parts();
+}
 
 RobotDraft draft_of(const Mechanism& mechanism, const std::vector<std::string>& wheels) {
   return DraftOfMechanism(mechanism, wheels).draft();

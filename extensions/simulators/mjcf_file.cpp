@@ -293,8 +293,12 @@ class MjcfReader {
                   const MechanismLink& link) {
     const std::vector<FramedElement> joints = contents(body, "joint", inherited);
     if (joints.empty() && contents(body, "freejoint", "").empty() && !parent.empty())
-      mechanism_.joints.push_back(
-          {.name = link.name, .place = body.place(), .parent = parent, .child = link.name, .fixed = true});
+      mechanism_.joints.push_back({.name = link.name,
+                                   .place = body.place(),
+                                   .element = body.index(),
+                                   .parent = parent,
+                                   .child = link.name,
+                                   .fixed = true});
     for (const FramedElement& framed : joints) {
       const XmlElement& element = framed.element;
       const Eigen::Isometry3d frame = link.pose * framed.frame;
@@ -306,6 +310,7 @@ class MjcfReader {
                  at = numbers(element, "pos", framed.inherited, 3);
       MechanismJoint joint{.name = element.attribute("name").value_or(link.name),
                            .place = element.place(),
+                           .element = element.index(),
                            .parent = parent,
                            .child = link.name,
                            .turns = value(element, "type", framed.inherited).value_or("hinge") == "hinge"};
@@ -324,6 +329,7 @@ class MjcfReader {
     const std::string inherited = body.attribute("childclass").value_or(inherited_above);
     MechanismLink link{.name = body.attribute("name").value_or("body in line " + std::to_string(body.line())),
                        .place = body.place(),
+                       .element = body.index(),
                        .pose = above * pose_of(body, "")};
     std::vector<MechanismLink> parts;
     unknown_mass_.clear();
@@ -383,9 +389,7 @@ class MjcfReader {
 
 Mechanism read_mjcf(const XmlElement& root) { return MjcfReader(root).read(); }
 
-Mechanism read_mechanism(const std::string& file) {
-  const XmlFile xml(file);
-  const XmlElement root = xml.root();
+Mechanism read_mechanism(const XmlElement& root) {
   if (root.name() == "robot") return read_urdf(root);
   if (root.name() == "sdf") return read_sdf(root);
   if (root.name() != "mujoco") root.fail("<" + root.name() + ">", "<robot> (URDF), <sdf> or <mujoco> (MJCF)");

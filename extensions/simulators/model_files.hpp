@@ -12,7 +12,7 @@ namespace joulepath {
 [[nodiscard]] Mechanism read_mjcf(const XmlElement& root);
 
 /// By its root element. Throws ConfigError for other XML files.
-[[nodiscard]] Mechanism read_mechanism(const std::string& file);
+[[nodiscard]] Mechanism read_mechanism(const XmlElement& root);
 
 /// Turns by roll, pitch and yaw, as URDF and SDF mean them.
 [[nodiscard]] Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy_rad);

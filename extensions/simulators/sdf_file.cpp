@@ -117,6 +117,7 @@ MechanismJoint sdf_joint(const XmlElement& element, const SdfFrames& frames, boo
   if (!parent || !child) element.fail("no parent or no child", "<parent> and <child>");
   MechanismJoint joint{.name = element.required("name"),
                        .place = element.place(),
+                       .element = element.index(),
                        .parent = parent->text(),
                        .child = child->text(),
                        .turns = type == "revolute" || type == "continuous",
@@ -158,8 +159,10 @@ Mechanism read_sdf(const XmlElement& root) {
       mechanism.notes.push_back(inside.place() + ": <" + kind + "> is not read: its masses are missing");
   const SdfFrames frames(model);
   for (const XmlElement& element : model.children("link")) {
-    MechanismLink link{
-        .name = element.required("name"), .place = element.place(), .pose = frames.pose_of(element)};
+    MechanismLink link{.name = element.required("name"),
+                       .place = element.place(),
+                       .element = element.index(),
+                       .pose = frames.pose_of(element)};
     add_sdf_mass(element, frames, link);
     add_sdf_shapes(element, frames, link);
     mechanism.links.push_back(std::move(link));

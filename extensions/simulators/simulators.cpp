@@ -16,7 +16,7 @@ void add_simulators(Registry& registry) {
   registry.robots.push_back({.says = "a URDF, SDF or MJCF model",
                              .recognizes_file = is_robot_model,
                              .read = [](const std::string& file, const std::vector<std::string>& wheels) {
-                               return draft_of(read_mechanism(file), wheels);
+                               return draft_of(read_mechanism(XmlFile(file).root()), wheels);
                              }});
   registry.graphs.push_back({"a plant model of openTCS", is_plant_model, read_plant_model});
 }

@@ -49,6 +49,7 @@ MechanismJoint urdf_joint(const XmlElement& element) {
   const std::string type = element.required("type");
   MechanismJoint joint{.name = element.required("name"),
                        .place = element.place(),
+                       .element = element.index(),
                        .turns = type == "continuous" || type == "revolute",
                        .fixed = type == "fixed",
                        .axis = Eigen::Vector3d::UnitX()};
@@ -162,7 +163,8 @@ Mechanism read_urdf(const XmlElement& root) {
   for (const XmlElement& element : links) {
     const auto pose = pose_of.find(element.required("name"));
     if (pose == pose_of.end()) element.fail("no way to it from the first link", "a tree of links and joints");
-    MechanismLink link{.name = pose->first, .place = element.place(), .pose = pose->second};
+    MechanismLink link{
+        .name = pose->first, .place = element.place(), .element = element.index(), .pose = pose->second};
     add_urdf_mass(element, link);
     add_urdf_shapes(element, link);
     mechanism.links.push_back(std::move(link));

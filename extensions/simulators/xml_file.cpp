@@ -8,6 +8,23 @@
 #include "scenarios/text/quoted.hpp"
 
 namespace joulepath {
+namespace {
+
+/// The element whose tag comes before; null: none.
+const tinyxml2::XMLElement* previous_tag(const tinyxml2::XMLElement* element) {
+  const auto* beside = element->PreviousSiblingElement();
+  if (!beside) return element->Parent()->ToElement();
+  while (beside->LastChildElement()) beside = beside->LastChildElement();
+  return beside;
+}
+
+const tinyxml2::XMLElement* next_tag(const tinyxml2::XMLElement* element) {
+  if (element->FirstChildElement()) return element->FirstChildElement();
+  while (element && !element->NextSiblingElement()) element = element->Parent()->ToElement();
+  return element ? element->NextSiblingElement() : nullptr;
+}
+
+}  // namespace
 
 std::optional<XmlElement> XmlElement::find(const char* child) const {
   const tinyxml2::XMLElement* found = element_->FirstChildElement(child);
@@ -90,9 +107,22 @@ std::string XmlElement::place() const {
   return std::filesystem::path(*file_).filename().string() + " line " + std::to_string(line());
 }
 
-XmlFile::XmlFile(const std::string& file)
+std::size_t XmlElement::index() const {
+  std::size_t before = 0;
+  for (const tinyxml2::XMLElement* at = element_; (at = previous_tag(at)) != nullptr;) ++before;
+  return before;
+}
+
+XmlFile::XmlFile(const std::string& file) : XmlFile(file, read_text_file(file)) {}
+
+XmlElement XmlFile::element(std::size_t index) const {
+  const tinyxml2::XMLElement* at = document_->RootElement();
+  while (index-- > 0) at = next_tag(at);
+  return {at, file_.get()};
+}
+
+XmlFile::XmlFile(const std::string& file, const std::string& text)
     : file_(std::make_unique<const std::string>(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  const std::string text = read_text_file(file);
   document_->Parse(text.data(), text.size());
   if (document_->Error() || document_->RootElement() == nullptr)
     throw ConfigError(

@@ -37,6 +37,7 @@ class XmlElement {
 
   [[noreturn]] void fail(std::string found, std::string accepted, std::string hint = {}) const;
   [[nodiscard]] std::string place() const;  ///< "waffle.urdf line 12"
+  [[nodiscard]] std::size_t index() const;  ///< among all elements of the file, in the order of their tags
 
  private:
   const tinyxml2::XMLElement* element_;
@@ -47,7 +48,9 @@ class XmlElement {
 class XmlFile {
  public:
   explicit XmlFile(const std::string& file);
+  XmlFile(const std::string& file, const std::string& text);  ///< `text` as the content of `file`
   [[nodiscard]] XmlElement root() const { return {document_->RootElement(), file_.get()}; }
+  [[nodiscard]] XmlElement element(std::size_t index) const;
 
  private:
   std::unique_ptr<const std::string> file_;

@@ -18,7 +18,7 @@ struct ControllerSettings {
 
 /// One PI loop per wheel on its speed, added to the voltage of the nominal model.
 ///
-///   V = V_model(v, omega, v', omega') + k_p e + k_i \int e dt,   e = q'_ref - q'
+///   V = V_model(v, omega, v', omega') + k_p e + k_i (integral of e dt),   e = q'_ref - q'
 ///
 /// The integral stops while the driver saturates, and decays while the robot stands as commanded.
 class WheelController {

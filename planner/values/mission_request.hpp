@@ -140,6 +140,7 @@ struct MissionRequest {
   std::string name{};  ///< file name without extension, or `name:`
   std::string robot_file{};
   std::string map_file{};      ///< empty: none
+  bool unknown_is_floor{};     ///< whether unknown cells of the map are floor; else obstacles
   std::string keepout_file{};  ///< empty: none
   std::string route_graph_file{};
   std::optional<SpeedMaskRequest> speed_mask{};

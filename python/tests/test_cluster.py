@@ -43,7 +43,8 @@ def missions(tmp_path, monkeypatch):
 
 
 def one_process(*words):
-    subprocess.run([sys.executable, "-m", "joulepath", *map(str, words), "-j", "1", "--quiet", "--out", "one"], check=True)
+    done = subprocess.run([sys.executable, "-m", "joulepath", *map(str, words), "-j", "1", "--quiet", "--out", "one"])
+    assert done.returncode in (0, 1)  # 1: a line of a batch cannot be read
     return pathlib.Path("one")
 
 

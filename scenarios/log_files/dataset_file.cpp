@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 #include "diagnosis/checks/plausible.hpp"
@@ -10,6 +11,7 @@
 #include "scenarios/log_files/clock_jumps.hpp"
 #include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/partial_channels.hpp"
+#include "scenarios/log_files/predictions_in.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/log_files/standstill_cuts.hpp"
 #include "scenarios/mission_files/motion_entry.hpp"
@@ -102,6 +104,16 @@ class RunReader {
     add(node, std::move(run));
   }
 
+  /// The prediction of a run that is read, from another directory.
+  void read_prediction_in(const std::string& directory, const Node& node, Run& run) {
+    const Node predicted = node["predicted"];
+    auto file = std::filesystem::path(directory) / predicted.text();  // as deep as predicted: says, or flat
+    if (!std::filesystem::exists(file)) file = std::filesystem::path(directory) / file.filename();
+    if (!std::filesystem::exists(file))
+      predicted.fail_found("no file " + file.string(), "a log of that name for each run with `predicted:`");
+    read_predicted(predicted, file.string(), sources_of_run(node, sources_), run);
+  }
+
  private:
   void add(const Node& node, Run whole) {
     std::vector<Run> runs = with_whole_channels(std::move(whole), options_, dataset_.artifacts);
@@ -162,7 +174,8 @@ class RunReader {
         named_by.fail_found(channel.found, channel.accepted,
                             channel.hint + " `columns:` with scale converts");
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
-    if (const auto predicted = node.find("predicted")) read_predicted(*predicted, sources, run);
+    if (const auto predicted = node.find("predicted"))
+      read_predicted(*predicted, resolve_file(*predicted, options_), sources, run);
   }
 
   [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
@@ -194,16 +207,47 @@ class RunReader {
 
   /// Reads another simulator's log, with the format's own names (`columns:` does not apply then) or with the
   /// names of the run's log.
-  void read_predicted(const Node& node, const ColumnSources& sources, Run& run) {
-    const std::string file = resolve_file(node, options_);
+  void read_predicted(const Node& node, const std::string& file, const ColumnSources& sources, Run& run) {
+    RunLog predicted =
+        read_run_log({{file, NamedBy(node)}}, has_own_names(node, file) ? ColumnSources{} : sources,
+                     dataset_.robot.geometry, node.text());
+    drop_partial_channels(predicted.trajectory, node.text(), dataset_.artifacts);
+    refuse_no_common(node, run.log, predicted.trajectory);
+    run.predicted = std::move(predicted.trajectory);
+  }
+
+  /// Bags name their sources themselves.
+  static bool has_own_names(const Node& node, const std::string& file) {
+    if (log_reader_of(file, NamedBy(node))) return true;
     const auto header = read_csv(
                             file, [](const std::string&) { return false; }, NamedBy(node))
                             .header;
-    const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
-    RunLog predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources,
-                                    dataset_.robot.geometry, node.text());
-    drop_partial_channels(predicted.trajectory, node.text(), dataset_.artifacts);
-    run.predicted = std::move(predicted.trajectory);
+    return std::find(header.begin(), header.end(), "time_s") != header.end();
+  }
+
+  static void refuse_no_common(const Node& node, const Trajectory& real, const Trajectory& predicted) {
+    const auto span = [](const Trajectory& log) {
+      return number_text(log.time_s.front()) + " to " + number_text(log.time_s.back()) + " s";
+    };
+    if (predicted.time_s.back() <= real.time_s.front() || real.time_s.back() <= predicted.time_s.front())
+      node.fail_found("a log from " + span(predicted),
+                      "one that has a time in common with the run's, " + span(real),
+                      "both times count from the same origin");
+    const auto both = [](const std::vector<double>& one, const std::vector<double>& other) {
+      return !one.empty() && !other.empty();
+    };
+    const auto both_drive = [&](Side side) {
+      return both(real.motor_current_A[side], predicted.motor_current_A[side]) ||
+             both(real.motor_voltage_V[side], predicted.motor_voltage_V[side]) ||
+             both(real.motor_power_W[side], predicted.motor_power_W[side]);
+    };
+    if (both_drive(Side::left) || both_drive(Side::right) ||
+        both(real.battery_current_A, predicted.battery_current_A) ||
+        both(real.gyro_yaw_rate_rad_s, predicted.gyro_yaw_rate_rad_s) ||
+        both(real.heading_rad, predicted.heading_rad) || both(real.position_x_m, predicted.position_x_m))
+      return;
+    node.fail_found("no channel beyond the motion that the run's log has, too",
+                    "a motor's current, voltage or power, the battery's current, gyro or pose");
   }
 
   Dataset& dataset_;
@@ -223,7 +267,7 @@ Schema run_schema() {
               optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
               optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),
               optional("surface", text()), optional("use", choice({"any", "diagnosis", "validation"})),
-              optional("predicted", text(), "another simulator's prediction of this run (CSV)"),
+              optional("predicted", text(), "log that the user's own simulator gave for this run"),
               optional("measured_energy_J", map({required("left", number()), required("right", number())})),
               optional("battery_energy_Wh", number())})
       .with_exactly_one({"file", "files", "motion"});
@@ -262,6 +306,20 @@ Dataset dataset_from(const Document& document, const ReadOptions& options, const
   RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
+  return dataset;
+}
+
+Dataset with_predictions_in(Dataset dataset, const std::string& directory, const ReadOptions& options) {
+  const Document document = Document::load(dataset.file);
+  const Node root = document.root();
+  const auto columns = root.find("columns");
+  const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
+  const DatasetInMemory memory;
+  RunReader reader(dataset, sources, options, memory);
+  for (const Node& node : root["runs"].items())
+    for (Run& run : dataset.runs)
+      if (run.predicted && run.mark.line == node.mark().line && run.mark.column == node.mark().column)
+        reader.read_prediction_in(directory, node, run);
   return dataset;
 }
 

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "model/printable.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/image.hpp"
+#include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in images of map savers
+
+constexpr double kCoarsestCell_m = 1.0;
 
 enum class Mode { trinary, scale, raw };
 
@@ -76,15 +79,17 @@ std::vector<std::string> map_notes(const std::string& file, const ReadOptions& o
     if (std::ranges::find(schema.keys, key, &Schema::Key::name) == schema.keys.end())
       notes.push_back(key + ": not read, as Nav2 does not read it either");
   const Interpretation meaning = read_interpretation(root);
+  if (const double resolution_m = root["resolution"].number(); resolution_m > kCoarsestCell_m)
+    notes.push_back("resolution: cells of " + four_digits(resolution_m) +
+                    " m are larger than a robot; is it in centimetres?");
   if (meaning.mode == Mode::raw) return notes;
   const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
   const auto saved_as_unknown = std::ranges::count_if(image.shade, [&](double shade) {
     return std::lround(shade * 255) == kSavedAsUnknown && cell_value(shade, false, meaning) == 0;
   });
   if (saved_as_unknown > 0) {
-    char share[16];
-    std::snprintf(share, sizeof share, "%.3g",
-                  100.0 * static_cast<double>(saved_as_unknown) / static_cast<double>(image.shade.size()));
+    const std::string share =
+        three_digits(100.0 * static_cast<double>(saved_as_unknown) / static_cast<double>(image.shade.size()));
     notes.push_back(
         "free_thresh: " + root["free_thresh"].text() + " counts grey " + std::to_string(kSavedAsUnknown) +
         ", with which map savers mark unknown cells, as free floor: " + share + " % of the cells");

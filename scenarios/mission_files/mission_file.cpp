@@ -219,6 +219,7 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
       .name = root.text_or("name", printable(std::filesystem::path(document.file()).stem().string())),
       .robot_file = file_named("robot"),
       .map_file = file_named("map"),
+      .unknown_is_floor = root.text_or("unknown", "occupied") == "free",
       .keepout_file = file_named("keepout"),
       .route_graph_file = file_named("route_graph"),
       .clearance_m = root.number_or("clearance_m", 0.0),

@@ -87,6 +87,7 @@ Schema mission_schema() {
       map({optional("schema", text(), "joulepath/mission/1"), optional("name", text()),
            required("robot", text(), "robot file"),
            optional("map", text(), "Nav2 map file; needed where a leg goes to a station"),
+           optional("unknown", choice({"occupied", "free"}), "unknown cells of the map; default occupied"),
            optional("keepout", text(), "Nav2 keep-out mask"),
            optional("speed_mask", speed_mask_schema(), "Nav2 speed mask"),
            optional("route_graph", text(), "Nav2 route graph (GeoJSON)"),

@@ -54,6 +54,8 @@ MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& 
   const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
   MissionWorld world{.robot = robot ? *robot : read_robot(request.robot_file, named("robot"))};
   if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
+  if (world.map && request.unknown_is_floor)
+    std::ranges::replace(world.map->occupancy_percent, kUnknownCell, std::int8_t{0});
   if (!request.keepout_file.empty())
     world.keepout = read_map(request.keepout_file, named("keepout"), options);
   if (request.speed_mask)

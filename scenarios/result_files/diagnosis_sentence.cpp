@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 #include "model/effects/effect_label.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
 namespace {
-
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string percent_text(double percent) { return three_digits(percent) + " %"; }
 
@@ -82,26 +76,43 @@ std::string size_words(const EnergyGap& e, bool named) {
 std::string gap_words(const Diagnosis& d) {
   const bool named = !d.causes.empty();
   const std::optional<EnergyGap>& battery = d.gap.battery_energy;
-  const std::string of_file = d.simulator.runs > 0 ? " The robot file's " : " The ";
+  const std::string whose = d.simulator.runs > 0 ? " The simulator's " : " The ";
   std::string words;
   if (d.gap.energy.before_J > 0)
-    words = of_file + (battery ? "energy gap at the motors" : "energy gap") +
-            size_words(d.gap.energy, named) + ".";
+    words =
+        whose + (battery ? "energy gap at the motors" : "energy gap") + size_words(d.gap.energy, named) + ".";
   if (battery && battery->before_J > 0)
-    words += of_file + "energy gap at the battery" + size_words(*battery, named) + ".";
+    words += whose + "energy gap at the battery" + size_words(*battery, named) + ".";
   if (!named) return words;
   return words + pose_words("position", d.gap.position_m, 1000, "mm") +
          pose_words("heading", d.gap.heading_rad, 1, "rad");
 }
 
-/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs.": without the floor
-/// where no model of the runs tells it.
-std::string simulator_words(const SimulatorGap& simulator) {
-  const double floor_percent = simulator.noise_floor_percent;
-  return "The simulator's energy gap is " + percent_text(simulator.gap_percent) + " (bias " +
-         percent_text(simulator.bias_percent) +
-         (floor_percent > 0 ? ", noise floor " + percent_text(floor_percent) : "") + ") on " +
-         std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
+/// "Beyond the robot file the simulator contains rolling resistance, 0.008 (probability 0.97).": told from
+/// its predictions alone.
+std::string contents_words(const SimulatorGap& simulator) {
+  if (simulator.is_another_robots) return "The robot file does not describe the robot of the simulator.";
+  if (simulator.contents == Verdict::no_gap) return "The simulator contains nothing beyond the robot file.";
+  if (simulator.contents == Verdict::too_little_data)
+    return "Its logs are too few to tell what the simulator contains beyond the robot file.";
+  const bool whole = simulator.contents == Verdict::explained;
+  if (simulator.contains.empty()) return "What the simulator contains beyond the robot file has no name.";
+  return "Beyond the robot file the simulator contains " + causes_words(simulator.contains) +
+         (whole ? "." : "; this is not all of it, or not sure.");
+}
+
+/// "5 of 12 runs are aligned by the path, 7 by the time.": by the time alone is nothing to tell.
+std::string alignment_words(const SimulatorGap& simulator) {
+  std::string words;
+  const auto add = [&](std::size_t runs, const char* by) {
+    if (runs > 0) append_item(words, std::to_string(runs) + " by " + by);
+  };
+  add(simulator.by_path, "the path");
+  add(simulator.by_command, "the commands");
+  if (words.empty()) return "";
+  add(simulator.by_time, "the time");
+  return " Of " + std::to_string(simulator.runs) + " predictions, which move otherwise, are aligned " +
+         words + ".";
 }
 
 /// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,
@@ -166,18 +177,19 @@ std::string another_robots_words(const std::vector<DataCheck>& checks) {
 /// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to
 /// count.
 std::string file_meaning(const Diagnosis& d) {
-  if (file_verdict(d) == Verdict::no_gap && !d.below_materiality.empty())
+  if (d.verdict == Verdict::no_gap && !d.below_materiality.empty())
     return "Calibration errors, noise and effects too small to count explain the runs.";
-  return words_of(file_verdict(d)).meaning;
+  return words_of(d.verdict).meaning;
 }
 
 /// The sentence on the model of the robot file.
-std::string model_sentence(const Diagnosis& d, Verdict verdict) {
-  const VerdictWords& words = words_of(verdict);
+std::string model_sentence(const Diagnosis& d) {
+  const VerdictWords& words = words_of(d.verdict);
   const std::string title = std::string(words.title) + ": ";
-  switch (verdict) {
+  switch (d.verdict) {
     case Verdict::no_gap:
-      return std::string(words.title) + size_not_seen(d) + ": " + clause(file_meaning(d)) + gap_words(d);
+      return std::string(words.title) + (d.simulator.runs > 0 ? " of the simulator" : "") + size_not_seen(d) +
+             ": " + clause(file_meaning(d)) + gap_words(d);
     case Verdict::explained:
       return title + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
@@ -205,18 +217,9 @@ std::string foreign_words(const std::vector<ForeignConstant>& constants) {
   return "The robot file does not describe this robot: " + text_of_list(words, "; ") + ".";
 }
 
-/// On the model of the robot file alone.
-std::string file_sentence(const Diagnosis& d) {
-  if (d.foreign_constants.empty()) return model_sentence(d, file_verdict(d));
-  return std::string(words_of(file_verdict(d)).title) + ": " + clause(foreign_words(d.foreign_constants));
-}
-
-/// On the simulator, then on the robot file, where there are two models.
 std::string verdict_sentence(const Diagnosis& d) {
-  if (d.simulator.runs == 0) return file_sentence(d);
-  return std::string(words_of(d.verdict).title) +
-         (d.verdict == Verdict::no_gap ? " of the simulator: " : ": ") +
-         clause(simulator_words(d.simulator)) + " Robot file: " + clause(file_sentence(d));
+  if (d.foreign_constants.empty()) return model_sentence(d);
+  return std::string(words_of(d.verdict).title) + ": " + clause(foreign_words(d.foreign_constants));
 }
 
 }  // namespace
@@ -230,13 +233,27 @@ std::string runs_apart_words(const Diagnosis& d) {
   return words.empty() ? "" : "Left out: " + text_of_list(words, "; ") + ".";
 }
 
+std::string simulator_words(const Diagnosis& d) {
+  const SimulatorGap& simulator = d.simulator;
+  if (simulator.runs == 0) return "";
+  std::string words = contents_words(simulator) + alignment_words(simulator);
+  if (simulator.runs < simulator.of_runs)
+    words +=
+        " " + std::to_string(simulator.of_runs - simulator.runs) + " runs without a prediction are left out.";
+  if (!simulator.lacking_channels.empty())
+    words += " What predictions lack is compared with this program's model: " +
+             text_of_list(simulator.lacking_channels) + ".";
+  return words;
+}
+
 std::string diagnosis_sentence(const Diagnosis& d) {
-  const std::string apart = runs_apart_words(d);
-  return verdict_sentence(d) + (apart.empty() ? "" : " " + apart);
+  std::string sentence = verdict_sentence(d);
+  for (const std::string& more : {simulator_words(d), runs_apart_words(d)})
+    if (!more.empty()) sentence += " " + more;
+  return sentence;
 }
 
 std::string diagnosis_meaning(const Diagnosis& d) {
-  if (d.simulator.runs > 0) return simulator_words(d.simulator);
   return d.foreign_constants.empty() ? file_meaning(d) : foreign_words(d.foreign_constants);
 }
 

@@ -6,17 +6,16 @@
 
 namespace joulepath {
 
-/// On the robot file's model alone.
-[[nodiscard]] inline Verdict file_verdict(const Diagnosis& d) {
-  return d.simulator.runs > 0 ? d.simulator.model_verdict : d.verdict;
-}
-
 /// The result of a diagnosis in one line: verdict, causes with their sizes and probabilities, and the change
 /// of the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);
 
 /// "Left out: run_07.csv, whose energy is 51 % above ...": the runs that the answer does not count; or empty.
 [[nodiscard]] std::string runs_apart_words(const Diagnosis& diagnosis);
+
+/// What the user's own simulator contains beyond the robot file, how its runs were aligned and what they
+/// lack; or empty.
+[[nodiscard]] std::string simulator_words(const Diagnosis& diagnosis);
 
 /// What the verdict means, in one or two sentences.
 [[nodiscard]] std::string diagnosis_meaning(const Diagnosis& diagnosis);

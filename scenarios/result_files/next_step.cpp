@@ -25,12 +25,12 @@ std::string examine(const Diagnosis& d) {
                             : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
 }
 
-/// What to do about the robot file.
+/// What to do about the model of the robot file.
 std::string step_of_file(const Diagnosis& d) {
-  const std::string step = words_of(file_verdict(d)).next_step;
+  const std::string step = words_of(d.verdict).next_step;
   if (!d.foreign_constants.empty())
     return step + " Name this robot's file, or correct these constants in it.";
-  switch (file_verdict(d)) {
+  switch (d.verdict) {
     case Verdict::explained:
       return is_corrected(d) ? step : not_written(d);
     case Verdict::partly_explained:
@@ -48,14 +48,19 @@ std::string step_of_file(const Diagnosis& d) {
   return step;
 }
 
-/// What to do about the simulator, then about the robot file.
+/// What to do about the user's own simulator.
 std::string step_by_verdict(const Diagnosis& d) {
-  if (d.simulator.runs == 0 || d.verdict == Verdict::too_little_data) return step_of_file(d);
-  const std::string of_simulator =
-      d.verdict == Verdict::no_gap
-          ? "The simulator needs no correction."
-          : "Look at the runs and places with the largest shares of the simulator's gap.";
-  return of_simulator + " Robot file: " + step_of_file(d);
+  if (d.simulator.runs == 0) return step_of_file(d);
+  switch (d.verdict) {
+    case Verdict::no_gap:
+      return "The simulator needs no correction.";
+    case Verdict::explained:
+      return "Add these causes to the simulator.";
+    case Verdict::partly_explained:
+      return "Add these causes to the simulator. " + examine(d);
+    default:
+      return step_of_file(d);
+  }
 }
 
 }  // namespace

@@ -131,14 +131,6 @@ Schema gap_schema() {
                    optional("motion", open(map({})))}));
 }
 
-Schema simulator_schema() {
-  return open(map({required("runs", integer(kNotNegative), "whose energy it predicts"),
-                   required("of_runs", integer(kNotNegative), "that could be compared"),
-                   required("gap_percent", result()), required("bias_percent", result()),
-                   required("noise_floor_percent", result()),
-                   required("model_verdict", choice(verdict_names()), "on the robot file's model alone")}));
-}
-
 Schema runs_apart_schema() {
   return list(open(
       map({required("run", text()),
@@ -162,6 +154,29 @@ Schema cause_schema() {
       map({required("effect", text()), required("probability", number(kFraction)),
            required("indistinguishable_from", list(text())), required("parameters", dictionary(parameter)),
            required("energy_share", result()), required("shrink_fraction_alone", result())}));
+}
+
+Schema simulator_schema() {
+  return open(map(
+      {required("runs", integer(kNotNegative), "that it predicts"),
+       required("of_runs", integer(kNotNegative), "with a usable log"),
+       required("gap_percent", result(), "of the energy of the measured motion, over all these runs"),
+       required("bias_percent", result()), required("noise_floor_percent", result()),
+       required("contents_verdict", choice(verdict_names()), "of its predictions against the robot file"),
+       required("contains", list(cause_schema()), "effects that it has beyond the robot file"),
+       required("another_robots_file", boolean(), "the robot file does not describe what it simulates"),
+       required("aligned_by",
+                open(map({required("time", integer(kNotNegative)), required("command", integer(kNotNegative)),
+                          required("path", integer(kNotNegative))})),
+                "runs by what aligns them"),
+       required("clock_offset_s", result(), "of its commands after the robot's, the greatest"),
+       required("motion_difference_percent", result(), "of the wheel speeds (rms) after that, the greatest"),
+       required("lacking_channels", list(text()), "compared with this program's model instead"),
+       optional("logs",
+                list(open(map({required("run", text()), required("content", text()),
+                               required("predicted_content", text())}))),
+                "what was compared, with hashes of the content"),
+       required("sentence", text())}));
 }
 
 Schema isolability_schema() {
@@ -246,16 +261,29 @@ Schema plan_schema() {
        optional("infeasibility", infeasibility_schema())}));
 }
 
+Schema after_schema() {
+  return open(
+      map({required("schema", text()), required("sentence", text(), "the answer in one line"),
+           required("causes", list(text()), "that the first diagnosis named"),
+           required("gap", gap_schema(), "of the simulator before and after its change"),
+           required(
+               "forecast",
+               open(map({required("shrink_fraction", result()), required("shrink_interval_95", interval())})),
+               "of the first diagnosis"),
+           required("validation", open(map({required("runs", list(text())), required("method", text())})))}));
+}
+
 Schema diagnosis_schema() {
   return open(map(
       {required("schema", text()),
        required("gap", gap_schema()),
-       optional("simulator", simulator_schema(), "energy gap of the predictions under `predicted:`"),
+       optional("simulator", simulator_schema(),
+                "the user's own simulator (`predicted:`), which everything else is about"),
        optional("runs_apart", runs_apart_schema(),
                 "runs that no model of the others describes; nothing else here counts them"),
        required("where", where_schema()),
        required("verdict", choice(verdict_names()),
-                "on the simulator where it predicts runs, else on the robot file's model"),
+                "on the user's own simulator where it predicts runs, else on the robot file's model"),
        optional("sentence", text(), "the answer in one line"),
        optional("next_step", text(), "what to do next"),
        required("causes", list(cause_schema())),

@@ -4,6 +4,7 @@
 
 #include "model/text_of_list.hpp"
 #include "scenarios/result_files/diagnosis_sentence.hpp"
+#include "scenarios/result_files/gap_after.hpp"
 #include "scenarios/result_files/next_step.hpp"
 #include "scenarios/text/significant.hpp"
 
@@ -35,6 +36,8 @@ void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, con
   json[prefix + "noise_floor_rms_" + unit] = six_digits(gap.noise_floor_rms);
 }
 
+}  // namespace
+
 Json gap_json(const GapReport& gap) {
   Json current = Json::object(), voltage = Json::object(), motion = Json::object(), battery = Json::object();
   add_signal(current, gap.current_A, "", "A");
@@ -56,14 +59,7 @@ Json gap_json(const GapReport& gap) {
   return json;
 }
 
-Json simulator_json(const SimulatorGap& simulator) {
-  return {{"runs", simulator.runs},
-          {"of_runs", simulator.of_runs},
-          {"gap_percent", six_digits(simulator.gap_percent)},
-          {"bias_percent", six_digits(simulator.bias_percent)},
-          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
-          {"model_verdict", verdict_name(simulator.model_verdict)}};
-}
+namespace {
 
 Json run_apart_json(const RunApart& apart) {
   return {{"run", apart.run},
@@ -107,6 +103,24 @@ Json each_json(const std::vector<Value>& values, const Entry& entry) {
   Json list = Json::array();
   for (const Value& value : values) list.push_back(entry(value));
   return list;
+}
+
+Json simulator_json(const Diagnosis& d) {
+  const SimulatorGap& simulator = d.simulator;
+  return {{"runs", simulator.runs},
+          {"of_runs", simulator.of_runs},
+          {"gap_percent", six_digits(simulator.gap_percent)},
+          {"bias_percent", six_digits(simulator.bias_percent)},
+          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
+          {"contents_verdict", verdict_name(simulator.contents)},
+          {"contains", each_json(simulator.contains, named_cause_json)},
+          {"another_robots_file", simulator.is_another_robots},
+          {"aligned_by",
+           {{"time", simulator.by_time}, {"command", simulator.by_command}, {"path", simulator.by_path}}},
+          {"clock_offset_s", six_digits(simulator.clock_offset_s)},
+          {"motion_difference_percent", six_digits(simulator.motion_difference_percent)},
+          {"lacking_channels", simulator.lacking_channels},
+          {"sentence", simulator_words(d)}};
 }
 
 Json ranked_json(const RankedEffect& ranked) {
@@ -231,7 +245,7 @@ std::string diagnosis_json(const Diagnosis& d) {
        {{"missions", d.decision_missions},
         {"joules_lost_with_nominal_percent", six_digits(d.joules_lost_percent)}}},
       {"validation", {{"runs", d.validation_runs}, {"method", d.validation_method}}}};
-  if (d.simulator.runs > 0) json["simulator"] = simulator_json(d.simulator);
+  if (d.simulator.runs > 0) json["simulator"] = simulator_json(d);
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/abilities.hpp"
 #include "model/printable.hpp"
 
 namespace joulepath {
@@ -16,6 +17,9 @@ constexpr double kFastestYaw_rad_s = 10.0;          ///< nearly two turns a seco
 constexpr double kGreatestTurnRatio = 6.0;          ///< of the wheels' motion in a turn over that of the body
 constexpr double kMostEnergy_Wh_kg = 200.0;         ///< of the whole robot: lithium cells alone have 300
 constexpr double kMostStandby_W_kg = 20.0;          ///< of the whole robot
+constexpr double kMostTopSpeed = 5.0;               ///< by voltage, over the speed limit
+constexpr double kLeastTopSpeed = 0.5;              ///< the same
+constexpr double kMostStallCurrent = 30.0;          ///< max_voltage_V/resistance_ohm over max_current_A
 constexpr double kAlwaysPossibleStandby_W = 200.0;  ///< a computer with a graphics card on a small robot
 
 /// Greatest distance of the outline from the chassis' center of mass.
@@ -30,19 +34,20 @@ double reach_m(const Robot& robot) {
 
 class Notes {
  public:
-  void over(const char* key, double value, double most, const std::string& why, const char* slip) {
+  void add(std::string note) { notes_.push_back(std::move(note)); }
+  void over(const std::string& key, double value, double most, const std::string& why, const char* slip) {
     if (std::isfinite(value) && value > most) note(key, value, "at most ", most, why, slip);
   }
-  void under(const char* key, double value, double least, const std::string& why, const char* slip) {
-    if (value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
+  void under(const std::string& key, double value, double least, const std::string& why, const char* slip) {
+    if (std::isfinite(least) && value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
   }
   std::vector<std::string> take() { return std::move(notes_); }
 
  private:
-  void note(const char* key, double value, const char* side, double bound, const std::string& why,
+  void note(const std::string& key, double value, const char* side, double bound, const std::string& why,
             const char* slip) {
-    notes_.push_back(std::string(key) + " " + four_digits(value) + " is implausible: " + side +
-                     four_digits(bound) + " " + why + "; " + slip);
+    notes_.push_back(key + " " + four_digits(value) + " is implausible: " + side + four_digits(bound) + " " +
+                     why + "; " + slip);
   }
 
   std::vector<std::string> notes_{};
@@ -59,10 +64,39 @@ void note_yaw_limits(const Robot& robot, Notes& notes) {
              "is it in degrees per second squared?");
 }
 
+/// Motors that cannot turn the wheels, or are much faster or slower than the speed limit.
+void note_motors(const Robot& robot, Notes& notes) {
+  const Abilities able = abilities_of(robot);
+  for (const Side side : kSides) {
+    if (able.can_move()) break;
+    if (able.motor_torque_Nm[side] > able.friction_torque_Nm[side]) continue;
+    notes.add("the robot cannot move: its " + std::string(side_name(side)) + " motor gives " +
+              four_digits(able.motor_torque_Nm[side]) + " N m at the wheel, and " +
+              four_digits(able.friction_torque_Nm[side]) +
+              " N m of friction resist; is gear_ratio inverse, or resistance_ohm in milliohm?");
+    return;
+  }
+  const Motor &left = robot.motor.left, &right = robot.motor.right;
+  const Motor& motor = left.max_voltage_V <= right.max_voltage_V ? left : right;
+  const double limit_m_s = robot.limits ? robot.limits->speed_m_s : kNoLimit;
+  const std::string at_limit = "m/s of top speed by voltage for limits.speed_m_s";
+  notes.over("motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",
+             able.top_speed_m_s, kMostTopSpeed * limit_m_s, at_limit,
+             "is the voltage ten times too high, or gear_ratio that of one stage?");
+  if (std::isfinite(limit_m_s))
+    notes.under("motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",
+                able.top_speed_m_s, kLeastTopSpeed * limit_m_s, at_limit,
+                "is the voltage that of one cell, or gear_ratio that of another motor?");
+  notes.under("motor.resistance_ohm", motor.resistance_ohm,
+              motor.max_voltage_V / (kMostStallCurrent * motor.max_current_A),
+              "ohm for max_voltage_V and max_current_A", "is it in kiloohm?");
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_constants(const Robot& robot) {
   Notes notes;
+  note_motors(robot, notes);
   const double mass_kg = robot.total_mass_kg(0.0), far_m = reach_m(robot);
   const double ring_kg_m2 = robot.inertia.chassis_mass_kg * far_m * far_m;  // all of the mass at the outline
   const std::string size =

@@ -55,16 +55,6 @@ bool cross(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
   return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
 }
 
-void check_footprint(const Node& polygon, const std::vector<Corner>& corners) {
-  const std::size_t n = corners.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = i + 2; k < n; ++k)
-      if (cross(corners[i], corners[(i + 1) % n], corners[k], corners[(k + 1) % n]))
-        polygon.items()[k].fail_found("an edge that crosses the edge from corner " + std::to_string(i),
-                                      "corners in their order around the robot",
-                                      "two corners may be swapped");
-}
-
 /// The heat of the windings is stated once.
 void check_heat(const Node& root, const Robot& robot) {
   if (!robot.motor.left.thermal) return;
@@ -99,9 +89,16 @@ void check_robot(const Node& root, const Robot& robot) {
         units_mixed_up(motor));
   }
   check_heat(root, robot);
-  if (const auto footprint = root.find("footprint"))
-    if (const auto polygon = footprint->find("polygon_m"))
-      check_footprint(*polygon, robot.footprint.polygon_m);
+}
+
+void check_polygon(const Node& polygon, const std::vector<std::array<double, 2>>& corners) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 2; k < n; ++k)
+      if (cross(corners[i], corners[(i + 1) % n], corners[k], corners[(k + 1) % n]))
+        polygon.items()[k].fail_found("an edge that crosses the edge from corner " + std::to_string(i),
+                                      "corners in their order around the robot",
+                                      "two corners may be swapped");
 }
 
 bool has_footprint(const Robot& robot) {

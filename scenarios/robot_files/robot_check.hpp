@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@
 namespace joulepath {
 
 /// Checks beyond the schema. Throws ConfigError at the key: torque and voltage constants that no motor has
-/// together, a footprint that crosses itself.
+/// together.
 void check_robot(const Node& root, const Robot& robot);
+
+/// Throws ConfigError at the corner for an outline that crosses itself.
+void check_polygon(const Node& polygon, const std::vector<std::array<double, 2>>& corners);
 
 /// Whether the robot's outline is known.
 [[nodiscard]] bool has_footprint(const Robot& robot);

@@ -32,6 +32,9 @@ std::string line_of(const RobotDraft& draft, const Schema::Key& key, const std::
   const std::string indent = dotted == key.name ? "" : "  ";
   if (const DraftValue* value = value_of(draft, dotted))
     return indent + key.name + ": " + value->text + comment(value->origin);
+  if (dotted == "power.standby_W")
+    return indent + "# not stated: " + dotted +
+           " (electronics and computer, often the largest part of a mission's energy)\n";
   if (!key.required) return "";
   return indent + "# missing: " + dotted + (key.says.empty() ? "" : " (" + key.says + ")") + "\n";
 }

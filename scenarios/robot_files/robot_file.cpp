@@ -133,6 +133,7 @@ Footprint read_footprint(const Node& node) {
     const auto xy = corner.items();
     footprint.polygon_m.push_back({xy[0].number(), xy[1].number()});
   }
+  check_polygon(*polygon, footprint.polygon_m);
   double twice_area_m2 = 0.0;
   const auto& p = footprint.polygon_m;
   for (std::size_t i = 0; i < p.size(); ++i) {

@@ -36,6 +36,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     if (word.size() >= 3 && candidate.size() > word.size() && candidate.compare(0, word.size(), word) == 0 &&
         candidate[word.size()] == '_')
       distance = std::min(distance, 1);
+    if (candidate.size() >= 5 && word.starts_with(candidate)) distance = std::min(distance, 2);  // --output
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

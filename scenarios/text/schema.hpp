@@ -65,7 +65,7 @@ struct Schema::Key {
 [[nodiscard]] Schema::Key required(std::string name, Schema schema, std::string says = {});
 [[nodiscard]] Schema::Key optional(std::string name, Schema schema, std::string says = {});
 
-/// A kind of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's format without such a line.
+/// A kind of file, as in `schema: joulepath/KIND/1`; `map` is Nav2's format without such a line.
 struct FileKind {
   std::string name{};
   Schema (*schema)(){};

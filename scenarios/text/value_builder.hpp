@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// Builds a tree of values from a parser's events; line breaks, tabs and marks of direction in its texts are
-/// escaped, as `\x0a`. Refuses duplicate keys, other control characters in texts, nesting deeper than
+/// escaped by their codes. Refuses duplicate keys, other control characters in texts, nesting deeper than
 /// kMaxDepth and more than kMaxValues values (copies of aliases count), so that memory is bounded for any
 /// text. Time is linear in the number of events.
 class ValueBuilder {

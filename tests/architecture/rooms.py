@@ -10,7 +10,7 @@ PLANNER = """model planner/cache planner/path/geometry planner/path/floor planne
 planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
 planner/joint planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/bound planner/mission
 planner/controller""".split()
-DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/prediction diagnosis/checks
+DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/prediction diagnosis/simulator diagnosis/checks
 diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
 diagnosis""".split()
 SCENARIOS = """scenarios/text scenarios/registry.hpp scenarios/document_kind.hpp scenarios/robot_files scenarios/mission_files scenarios/log_files scenarios/result_files

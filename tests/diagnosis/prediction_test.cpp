@@ -200,7 +200,7 @@ TEST(Localization, FindsTheWheelAndTheDirection) {
   worn.motor.left.friction_torque_Nm *= 1.3;
   std::vector<RunSignals> signals{weaving(worn, 0.5), weaving(nomad(), -0.5)};
   signals[1].name = "back";
-  const std::vector<WhereCell> cells = localize_gap(signals, {{}, {}}, {.robot = nomad()}, NoiseModel{}, 20);
+  const std::vector<WhereCell> cells = localize_gap(signals, {.robot = nomad()}, NoiseModel{}, 20);
   std::map<std::string, double> sum, share;
   for (const WhereCell& cell : cells) {
     sum[cell.axis] += cell.share_of_gap;
@@ -223,7 +223,7 @@ TEST(Localization, TakesTheSensorsNoiseOffTheGap) {
   const RunSignals run = weaving(worn);
   const Prediction p = predict(run, {.robot = nomad()});
   const auto gap_J = [&](const NoiseModel& noise) {
-    for (const WhereCell& cell : localize_gap({run}, {{}}, {.robot = nomad()}, noise, 1))
+    for (const WhereCell& cell : localize_gap({run}, {.robot = nomad()}, noise, 1))
       if (cell.axis == "run") return cell.energy_J;
     throw std::runtime_error("no cell of the run");
   };
@@ -280,8 +280,7 @@ TEST(Localization, KeepsSmallGapsThatLast) {
   }
   const auto shares = [](const std::vector<RunSignals>& runs, const NoiseModel& of) {
     std::map<std::string, double> share;
-    for (const WhereCell& cell :
-         localize_gap(runs, std::vector<OtherPrediction>(runs.size()), {.robot = nomad()}, of, 1))
+    for (const WhereCell& cell : localize_gap(runs, {.robot = nomad()}, of, 1))
       if (cell.axis == "phase") share[cell.value] = cell.share_of_gap;
     return share;
   };

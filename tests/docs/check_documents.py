@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks of documents: links and cited files exist, decisions have a status and are cited, no page tells
-of its making, lines of prose end, versions agree.
+of its making, lines of prose end, README and changelog are short, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -60,7 +60,7 @@ def cited_documents(source):
                 for cited in DOCUMENT.findall(file.read_text(errors="replace")):
                     if not (file.name == "run" and cited.startswith("benchmarks/results/")):  # it writes that file
                         yield file.relative_to(source), cited
-    for file in ("CMakeLists.txt", "dev"):
+    for file in ("CMakeLists.txt", "dev", "site/build"):
         for cited in DOCUMENT.findall((source / file).read_text()):
             yield file, cited
 
@@ -121,10 +121,22 @@ def long_lines(source):
                 yield f"{name}:{number}: {len(line)} characters, at most {WIDTH}"
 
 
+# What a reader takes in at once: words of the README, lines of the changelog.
+MOST_WORDS, MOST_CHANGES = 600, 40
+
+
+def too_long(source):
+    words, lines = len((source / "README.md").read_text().split()), len((source / "CHANGELOG.md").read_text().splitlines())
+    if words > MOST_WORDS:
+        yield f"README.md: {words} words, at most {MOST_WORDS}: move what is special to a page of docs/"
+    if lines > MOST_CHANGES:
+        yield f"CHANGELOG.md: {lines} lines, at most {MOST_CHANGES}: one line for each change that a user sees"
+
+
 def differences(source, version):
     consumer = (source / "tests/consumer/plan_and_print.cpp").read_text()
-    if consumer not in (source / "README.md").read_text():
-        yield "README.md: its program is not tests/consumer/plan_and_print.cpp"
+    if consumer not in (source / "docs/installing.md").read_text():
+        yield "docs/installing.md: its program is not tests/consumer/plan_and_print.cpp"
     if f"<version>{version}</version>" not in (source / "package.xml").read_text():
         yield f"package.xml: its version is not {version}"
     if "joulepath" not in (source / "THIRD_PARTY_NOTICES.md").read_text():
@@ -134,7 +146,7 @@ def differences(source, version):
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     problems = [*broken_links(source), *missing_paths(source), *missing_documents(source), *decisions(source),
-                *histories(source), *long_lines(source), *differences(source, sys.argv[2])]
+                *histories(source), *long_lines(source), *too_long(source), *differences(source, sys.argv[2])]
     print("\n".join(problems) or "documents: links, paths, program and versions agree")
     return 1 if problems else 0
 

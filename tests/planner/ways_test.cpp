@@ -341,5 +341,27 @@ TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
   EXPECT_NE(plan.message.find("outside of the map"), std::string::npos) << plan.message;
 }
 
+/// The goal of one leg on a floor whose part beyond x = 12 m nobody has seen.
+Plan plan_into_the_unknown(double x_m) {
+  MissionRequest mission{.name = "unknown"};
+  mission.stations = {{"goal", {.x_m = x_m, .y_m = 3}}};
+  mission.start = {.pose = {2, 3, 0}};
+  mission.legs = {{.to = "goal"}};
+  OccupancyGrid map = floor_with_rack();
+  for (std::size_t cell = 0; cell < map.cell_count(); ++cell)
+    if (map.cell_at(cell).column >= 120) map.occupancy_percent[cell] = kUnknownCell;
+  return plan_mission(mission, {.robot = testing::nomad(), .map = std::move(map)}, kCoarse);
+}
+
+TEST(Route, AGoalThatTheMapDoesNotKnowIsToldAsThat) {
+  const Plan inside = plan_into_the_unknown(15), beside = plan_into_the_unknown(11.9);
+  EXPECT_NE(inside.message.find("the goal (15.000, 3.000) m lies on an unknown cell of the map"),
+            std::string::npos)
+      << inside.message;
+  EXPECT_NE(beside.message.find("to an unknown cell of the map at (12.000, 3.000) m"), std::string::npos)
+      << beside.message;
+  EXPECT_FALSE(plan_into_the_unknown(11.0).infeasibility);
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -35,7 +35,7 @@ jp.diagnosis_tiles = function (d) {
   const {energy = {}, battery_energy: battery} = d.gap || {}, interval = energy.shrink_interval_95, simulator = d.simulator;
   const at_battery = battery && is_number(battery.before_percent) ? jp.tile("At the battery", (d.causes || []).length ? `${percent(battery.before_percent)} → ${percent(battery.after_percent)}` : percent(battery.before_percent), `energy gap at the battery's terminals; noise floor ${percent(battery.noise_floor_percent)}`) : null;
   return h("div", {class: "tiles"}, [
-    simulator ? jp.tile("Simulator's energy gap", percent(simulator.gap_percent), `bias ${percent(simulator.bias_percent)}, ${simulator.runs} of ${simulator.of_runs} runs`) : null,
+    simulator ? jp.tile("Simulator's energy gap", percent(simulator.gap_percent), [h("div", {}, `bias ${percent(simulator.bias_percent)}, ${simulator.runs} of ${simulator.of_runs} runs`), h("div", {}, simulator.sentence)]) : null,
     jp.tile(battery ? "Motors' energy gap before" : "Energy gap before", percent(energy.before_percent), is_number(energy.bias_before_percent) ? `bias ${percent(energy.bias_before_percent)} (negative: the model predicts too little)` : with_unit(energy.before_J, "J")),
     !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : is_number(energy.after_percent) ? jp.tile("After the correction", percent(energy.after_percent), with_unit(energy.after_J, "J")) : null,
     is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", percent(energy.noise_floor_percent), "scatter of the runs: a model need not get below it") : null,

@@ -63,6 +63,14 @@ TEST_F(ForeignBags, AnUnfinishedTransactionIsRefused) {
   EXPECT_NE(reading(bag).error.find("an unfinished transaction in " + bag + "-journal"), std::string::npos);
 }
 
+/// With journal_mode PERSIST a finished journal stays, with zeros as its header.
+TEST_F(ForeignBags, AFinishedJournalIsNoUnfinishedTransaction) {
+  const std::string bag =
+      database({std::string("PRAGMA journal_mode=PERSIST"), table(kTopics), table(kMessageTable)});
+  ASSERT_GT(std::filesystem::file_size(bag + "-journal"), 0u);
+  EXPECT_EQ(reading(bag).error.find("-journal"), std::string::npos);
+}
+
 /// Messages that are still in the write-ahead log are read; nothing is written beside the bag.
 TEST_F(ForeignBags, WriteAheadLogsAreReadAndNothingIsWrittenBeside) {
   namespace fs = std::filesystem;

@@ -47,6 +47,61 @@ diff_drive_controller:
   EXPECT_NE(acceleration->origin.find("params.yaml line 4"), std::string::npos);
 }
 
+/// As the controller drives: its multipliers, its braking where none is stated, its speed in reverse; the
+/// namespaces around a node change nothing.
+TEST(RobotOfParameters, WheelsAndBrakingAreThoseOfTheController) {
+  const ScratchDirectory scratch;
+  const std::string node = R"(diff_drive_controller:
+  ros__parameters:
+    wheel_separation: 0.4
+    wheel_separation_multiplier: 1.5
+    wheel_radius: 0.1
+    left_wheel_radius_multiplier: 0.9
+    right_wheel_radius_multiplier: 0.8
+    linear.x.max_velocity: 1.0
+    linear.x.min_velocity: -0.3
+    linear.x.max_acceleration: 0.5
+)";
+  std::string inside = "/**:\n  ";
+  for (const char c : node) inside += c == '\n' ? std::string("\n  ") : std::string(1, c);
+  for (const std::string& text : {node, inside}) {
+    auto values = values_in(draft_from({scratch.write("params.yaml", text)}, {}));
+    EXPECT_EQ(values["geometry.half_track_m"], "0.3");
+    EXPECT_EQ(values["geometry.wheel_radius_m"], "{left: 0.09, right: 0.08}");
+    EXPECT_EQ(values["limits.deceleration_m_s2"], "0.5");
+    EXPECT_EQ(values["limits.reverse_speed_m_s"], "0.3");
+  }
+}
+
+/// Of a controller that only drives forward there is no speed in reverse; old ones brake with positive
+/// values.
+TEST(RobotOfParameters, SignsOfLeastSpeedsAndDecelerations) {
+  const ScratchDirectory scratch;
+  const auto with = [&](const std::string& parameters) {
+    return values_in(draft_from(
+        {scratch.write("params.yaml",
+                       "controller_server:\n  ros__parameters:\n    FollowPath: {" + parameters + "}\n")},
+        {}));
+  };
+  auto forward = with("max_vel_x: 0.5, min_vel_x: 0.0, acc_lim_x: 1.0, decel_lim_x: -2.0");
+  EXPECT_FALSE(forward.contains("limits.reverse_speed_m_s"));
+  EXPECT_EQ(forward["limits.deceleration_m_s2"], "2");
+  auto both = values_in(draft_from(
+      {scratch.write(
+          "params.yaml",
+          "controller_server:\n  ros__parameters:\n    FollowPath: {max_vel_x: 0.5, min_vel_x: 0.0}\n"
+          "velocity_smoother:\n  ros__parameters: {max_velocity: [0.4, 0, 1], min_velocity: [-0.26, 0, "
+          "-1]}\n")},
+      {}));
+  EXPECT_FALSE(both.contains("limits.reverse_speed_m_s")) << "the controller drives forward alone";
+  EXPECT_FALSE(with("vx_max: 0.5, vx_min: 0.1").contains("limits.reverse_speed_m_s"));
+  EXPECT_EQ(with("vx_max: 0.5, vx_min: -0.35")["limits.reverse_speed_m_s"], "0.35");
+  for (const char* decel : {"0.2", "-0.2"})
+    EXPECT_EQ(with(std::string("desired_linear_vel: 0.5, max_linear_accel: 0.3, max_linear_decel: ") +
+                   decel)["limits.deceleration_m_s2"],
+              "0.2");
+}
+
 TEST(RobotOfParameters, AnEmptyFootprintIsNone) {
   const ScratchDirectory scratch;
   const auto values_with = [&](const std::string& local, const std::string& global) {

@@ -38,9 +38,10 @@ std::string collection(const std::vector<std::string>& features) {
 /// Route servers read no geometry of edges.
 TEST(RouteGraphFile, EdgesWithoutGeometryAreStraight) {
   const ScratchDirectory scratch;
-  for (const char* geometry :
-       {R"("geometry": null)", R"("geometry": {"type": "MultiLineString"})",
-        R"("geometry": {"type": "LineString", "coordinates": []})", R"("bbox": [0, 0, 1, 1])"}) {
+  for (const char* geometry : {R"("geometry": null)", R"("geometry": {"type": "MultiLineString"})",
+                               R"("geometry": {"type": "LineString", "coordinates": []})",
+                               R"("geometry": {"type": "LineString", "coordinates": [[[0, 0], [4, 0]]]})",
+                               R"("bbox": [0, 0, 1, 1])"}) {
     const RouteGraph graph = read_route_graph(scratch.write(
         "g.geojson",
         collection(

@@ -31,7 +31,9 @@ ObstacleField::LayerField ObstacleField::layer_of(const OccupancyGrid& grid, Lay
   LayerField field;
   field.blocked.reserve(grid.occupancy_percent.size());
   for (const std::int8_t percent : grid.occupancy_percent)
-    field.blocked.push_back(percent >= kBlockedFromPercent || (is_map && percent == kUnknownCell) ? 1 : 0);
+    field.blocked.push_back(is_map && percent == kUnknownCell ? LayerField::kUnknown
+                            : percent >= kBlockedFromPercent  ? 1
+                                                              : 0);
   field.grid.width = grid.width;
   field.grid.height = grid.height;
   field.grid.resolution_m = grid.resolution_m;
@@ -98,7 +100,7 @@ void ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, 
         blocked.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width);
     for (int column = first_column; column <= last_column; ++column)
       if (cells[column] != 0 && consider(std::clamp(u, static_cast<double>(column), column + 1.0), near_v))
-        found_in = layer;
+        found_in = layer_at(grid.index_of({column, row}));
   }
   if (!found) return;
   best.layer = found_in;

@@ -19,7 +19,7 @@ class ObstacleField {
  public:
   explicit ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout = nullptr);
 
-  enum class Layer { map, keepout, edge };  ///< edge: everything outside of the map
+  enum class Layer { map, unknown, keepout, edge };  ///< unknown: cells of the map; edge: all outside of it
   /// The obstacle nearest to a point.
   struct Nearest {
     double distance_m{};  ///< to the cell's square, 0 inside of it
@@ -66,13 +66,17 @@ class ObstacleField {
 
  private:
   struct LayerField {
-    OccupancyGrid grid{};  ///< geometry; occupancy is moved to `blocked`
-    std::vector<std::uint8_t> blocked{};
+    OccupancyGrid grid{};                 ///< geometry; occupancy is moved to `blocked`
+    std::vector<std::uint8_t> blocked{};  ///< 0 for floor, kUnknown for unknown cells
     std::vector<float> distance_cells{};  ///< from a cell's center to the nearest blocked square
     double cosine{}, sine{};
     bool outside_blocked{};
     Layer layer{};
 
+    static constexpr std::uint8_t kUnknown = 2;
+    [[nodiscard]] Layer layer_at(std::size_t cell) const {
+      return blocked[cell] == kUnknown ? Layer::unknown : layer;
+    }
     struct Local {
       double u{}, v{};  ///< in cells, in the grid's frame
     };
@@ -88,6 +92,7 @@ class ObstacleField {
 /// The name of an obstacle in messages.
 [[nodiscard]] inline const char* name_of(ObstacleField::Layer layer) {
   if (layer == ObstacleField::Layer::edge) return "the map's edge";
+  if (layer == ObstacleField::Layer::unknown) return "an unknown cell of the map";
   return layer == ObstacleField::Layer::keepout ? "the keep-out area" : "the obstacle";
 }
 
@@ -116,7 +121,7 @@ void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, c
         if (du * du + dv * dv > reach * reach) continue;
         const auto center = grid.center_of(cell);
         visit(BlockedCell{center[0], center[1], 0.5 * grid.resolution_m, grid.origin.heading_rad,
-                          inside ? field.layer : Layer::edge});
+                          inside ? field.layer_at(grid.index_of(cell)) : Layer::edge});
       }
   }
 }

@@ -37,12 +37,20 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
-/// Adds a special message for a place outside the map.
+/// Adds a special message for a place that the map does not contain or does not know.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
-  if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;
-  const ObstacleField::Extent extent = field.extent_m();
   char text[320];
+  if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) {
+    const auto nearest = field.nearest(verdict.x_m, verdict.y_m);
+    if (nearest.distance_m > 0 || nearest.layer != ObstacleField::Layer::unknown) return verdict;
+    std::snprintf(text, sizeof text,
+                  "the %s (%.3f, %.3f) m lies on an unknown cell of the map; unknown cells count as occupied",
+                  which, verdict.x_m, verdict.y_m);
+    verdict.message = text;
+    return verdict;
+  }
+  const ObstacleField::Extent extent = field.extent_m();
   std::snprintf(
       text, sizeof text,
       "the %s (%.3f, %.3f) m lies outside of the map, which covers x from %.2f to %.2f m and y from "

@@ -40,7 +40,7 @@ enum class BezierFrame { start, map };
 
 /// Drives a chain of cubic Bezier curves forward from a pose.
 ///
-/// In `BezierFrame::start` control points are in the robot's frame at `start`, else in the map frame. The
+/// Control points are in the robot's frame at its start (BezierFrame), else in the map frame. The
 /// chain must begin at the robot and each curve at the end of the previous one (steps up to kRounding_m and
 /// kRounding_rad are rounding: p0 and p1 of the later curve are moved to close them). At a heading step, at
 /// the beginning too, the robot turns in place; at a curvature step alone it stops. Curves with all control

@@ -96,7 +96,9 @@ TEST(ObstacleField, UnknownAndOutsideAreObstacles) {
   map.occupancy_percent[20 * 40 + 20] = kUnknownCell;
   const ObstacleField field(map);
   EXPECT_EQ(field.distance_m(2.05, 2.05), 0.0);
+  EXPECT_EQ(field.nearest(2.05, 2.45).layer, ObstacleField::Layer::unknown);
   EXPECT_EQ(field.distance_m(-1.0, 2.0), 0.0);
+  EXPECT_EQ(field.nearest(-1.0, 2.0).layer, ObstacleField::Layer::edge);
   EXPECT_NEAR(field.distance_m(0.3, 2.0), 0.3, 1e-12);
 }
 

@@ -405,16 +405,42 @@ TEST(DatasetFile, EnergyOnlyRunKeepsItsMotion) {
   EXPECT_EQ(run.payload.front().payload_kg, 8.25);
 }
 
-TEST(DatasetFile, PredictionOfAnotherSimulatorIsRead) {
-  const ScratchDirectory scratch;
-  scratch.write("a.csv", "t,l,r\n0,0,0\n1,1,1\n");
-  scratch.write("sim.csv", "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s\n0,7,7\n0.5,8,8\n1,9,9\n");
-  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml(R"(
+/// A run's log with a gyro and the log of a simulator with this text, under a dataset file.
+std::string dataset_with_simulator(const ScratchDirectory& scratch, const std::string& simulator) {
+  scratch.write("a.csv", "t,l,r,gyro_yaw_rate_rad_s\n0,0,0,0\n1,1,1,0\n");
+  scratch.write("sim.csv", simulator);
+  return scratch.write("d.yaml", dataset_yaml(R"(
 columns: {time_s: {from: t}, wheel_speed_left_rad_s: {from: l}, wheel_speed_right_rad_s: {from: r}}
 runs: [{file: a.csv, predicted: sim.csv}]
-)")));
+)"));
+}
+
+const std::string kSimulatorColumns = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s";
+
+TEST(DatasetFile, PredictionOfAnotherSimulatorIsRead) {
+  const ScratchDirectory scratch;
+  const Dataset dataset = read_dataset(dataset_with_simulator(
+      scratch, kSimulatorColumns + ",gyro_yaw_rate_rad_s\n0,7,7,0\n0.5,8,8,0\n1,9,9,0\n"));
   ASSERT_TRUE(dataset.runs[0].predicted);
   EXPECT_EQ(dataset.runs[0].predicted->wheel_speed_rad_s.left[1], 8.0);
+}
+
+TEST(DatasetFile, PredictionOfAnotherTimeOrOfNoCommonChannelIsRefused) {
+  const ScratchDirectory scratch;
+  const auto refused = [&](const std::string& simulator) {
+    try {
+      static_cast<void>(read_dataset(dataset_with_simulator(scratch, simulator)));
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string late =
+      refused(kSimulatorColumns + ",gyro_yaw_rate_rad_s\n20,7,7,0\n20.5,8,8,0\n21,9,9,0\n");
+  EXPECT_NE(late.find("d.yaml:"), std::string::npos) << late;
+  EXPECT_NE(late.find("runs[0].predicted: found a log from 20 to 21 s"), std::string::npos) << late;
+  const std::string bare = refused(kSimulatorColumns + "\n0,7,7\n0.5,8,8\n1,9,9\n");
+  EXPECT_NE(bare.find("runs[0].predicted: found no channel beyond the motion"), std::string::npos) << bare;
 }
 
 TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/text/image.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
@@ -29,6 +30,24 @@ TEST(MapFile, WarehouseIsFreeAtItsStationsAndWalledAround) {
 TEST(MapFile, EveryNav2MapReads) {
   for (const char* name : {"warehouse_keepout.yaml", "warehouse_speed.yaml", "depot.yaml"})
     EXPECT_FALSE(read_map(kMaps + name).occupancy_percent.empty()) << name;
+}
+
+/// A mission may take unknown cells for floor; occupied cells stay.
+TEST(MapFile, UnknownCellsAreFloorWhereTheMissionSaysSo) {
+  const ScratchDirectory scratch;
+  scratch.write("m.pgm", "P2\n3 1\n255\n0 205 254\n");
+  scratch.write("m.yaml", map_yaml("m.pgm", "occupied_thresh: 0.65\nfree_thresh: 0.1\n"));
+  const auto cells = [&](const std::string& unknown) {
+    return read_world(
+               read_mission(scratch.write(
+                   "mission.yaml", "robot: " JOULEPATH_SOURCE_DIR
+                                   "/scenarios/robots/nomad_super_scout.yaml\nmap: m.yaml\n" +
+                                       unknown + "stations: {a: {x_m: 1, y_m: 2}}\nlegs: [{to: a}]\n")))
+        .map->occupancy_percent;
+  };
+  EXPECT_EQ(cells(""), (std::vector<std::int8_t>{100, kUnknownCell, 0}));
+  EXPECT_EQ(cells("unknown: occupied\n"), cells(""));
+  EXPECT_EQ(cells("unknown: free\n"), (std::vector<std::int8_t>{100, 0, 0}));
 }
 
 TEST(MapFile, FirstImageRowIsTheTopOfTheMap) {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "diagnosis/where/other_prediction.hpp"
 #include "scenarios/result_files/next_step.hpp"
 #include "scenarios/result_files/write_diagnosis.hpp"
 
@@ -116,11 +115,12 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
             "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
 }
 
-/// Currents that are 6.9 times too large in all runs: so they are beside a file of a robot with another motor.
+/// Currents that are 6.9 times too large in all runs: so they are beside a file of a robot with another
+/// motor.
 TEST(DiagnosisSentence, NamesTheOtherReadingOfAScaledDrive) {
   const auto sentence_of = [](const char* channel, const char* kind, const char* run) {
-    return diagnosis_sentence({.verdict = Verdict::data_suspect,
-                               .data_checks = {{.run = run, .channel = channel, .kind = kind}}});
+    return diagnosis_sentence(
+        {.verdict = Verdict::data_suspect, .data_checks = {{.run = run, .channel = channel, .kind = kind}}});
   };
   const auto has_other_reading = [](const std::string& said) {
     return said.find("Another robot's file gives the same picture") != std::string::npos;
@@ -152,7 +152,7 @@ struct RandomDiagnosis {
   }
 
   SignalGap signal() {
-    const double before = 0.01 * size();
+    const double before = as_said(0.01 * size());
     return {.before_rms = before,
             .after_rms = after(before),
             .noise_floor_rms = after(before),
@@ -191,13 +191,9 @@ struct RandomDiagnosis {
     if (coin()) d.below_materiality = {{"floor_patch", 0.97, 20, 0.4}};
     if (coin()) d.runs_apart = {{"run_3", as_said(100 * (fraction() - 0.5)), fraction()}};
     if (coin()) {
-      d.simulator = {.runs = 3,
-                     .of_runs = 4,
-                     .gap_percent = size(),
-                     .bias_percent = -1,
-                     .noise_floor_percent = size(),
-                     .model_verdict = d.verdict};
-      d.verdict = verdict_with(d.simulator);
+      d.simulator = {.runs = 3, .of_runs = 4, .gap_percent = size(), .contents = d.verdict};
+      if (coin()) d.simulator.by_path = 2, d.simulator.by_time = 1;
+      if (coin()) d.simulator.contains = d.causes, d.simulator.lacking_channels = {"gyro"};
     }
     return d;
   }
@@ -254,6 +250,19 @@ void expect_causes(const std::string& said, const nlohmann::json& causes) {
   }
 }
 
+/// What the simulator contains, how its runs are aligned, what it lacks and what it leaves out.
+void expect_simulator(const std::string& said, const nlohmann::json& json) {
+  const bool any = json.contains("simulator");
+  EXPECT_EQ(says(said, "the simulator contains") || says(said, "The simulator contains"), any) << said;
+  EXPECT_EQ(says(said, " 1 runs without a prediction are left out."), any) << said;
+  if (!any) return;
+  const nlohmann::json& simulator = json["simulator"];
+  EXPECT_TRUE(says(said, simulator["sentence"])) << said;
+  EXPECT_EQ(says(said, "aligned 2 by the path, 1 by the time."), simulator["aligned_by"]["path"] == 2)
+      << said;
+  EXPECT_EQ(says(said, "this program's model: gyro."), !simulator["lacking_channels"].empty()) << said;
+}
+
 TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
   RandomDiagnosis random{std::mt19937_64(5)};
   for (int k = 0; k < 1000; ++k) {
@@ -266,9 +275,9 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
                                  digits(std::abs(apart["over_model_percent"].get<double>())) + " %"))
           << said;
     EXPECT_EQ(says(said, "too small to count"),
-              file_verdict(d) == Verdict::no_gap && !json["below_materiality"].empty())
+              d.verdict == Verdict::no_gap && !json["below_materiality"].empty())
         << said;
-    EXPECT_EQ(says(said, "simulator's energy gap is"), json.contains("simulator")) << said;
+    expect_simulator(said, json);
     expect_causes(said, json["causes"]);
     for (const DataCheck& check : d.data_checks)
       EXPECT_TRUE(says(said, check.channel + " inverted" + (check.run.empty() ? "." : " in run_2."))) << said;
@@ -278,7 +287,7 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
     if (!d.data_checks.empty() || !d.foreign_constants.empty()) continue;
     const std::string of_motors =
         json["gap"].contains("battery_energy") ? "energy gap at the motors" : "energy gap";
-    const std::string whose = json.contains("simulator") ? "The robot file's " : "The ";
+    const std::string whose = json.contains("simulator") ? "The simulator's " : "The ";
     expect_energy(said, whose + of_motors, !d.causes.empty(), json["gap"]["energy"]);
     if (d.gap.battery_energy)
       expect_energy(said, whose + "energy gap at the battery", !d.causes.empty(),

@@ -70,6 +70,28 @@ TEST(RobotFile, ConstantsThatMassAndSizeContradictAreNoted) {
   }
 }
 
+/// A slip in the motor's constants leaves a robot that cannot move, or one much faster or slower than its
+/// limit.
+TEST(RobotFile, MotorsThatDoNotFitTheRobotAreNoted) {
+  struct Slip {
+    const char* told;
+    void (*make)(Motor&);
+  };
+  const Slip slips[] = {{"cannot move", [](Motor& m) { m.gear_ratio = 1 / m.gear_ratio; }},
+                        {"cannot move", [](Motor& m) { m.resistance_ohm *= 1000; }},
+                        {"motor.resistance_ohm", [](Motor& m) { m.resistance_ohm /= 1000; }},
+                        {"ten times too high", [](Motor& m) { m.max_voltage_V *= 10; }},
+                        {"of one cell", [](Motor& m) { m.max_voltage_V = 4.6; }}};
+  const Robot robot = read_robot(kNomad);
+  for (const Slip& slip : slips) {
+    Robot wrong = robot;
+    for (const Side side : kSides) slip.make(wrong.motor[side]);
+    const std::vector<std::string> notes = implausible_constants(wrong);
+    ASSERT_GE(notes.size(), 1u) << slip.told;
+    EXPECT_NE(notes[0].find(slip.told), std::string::npos) << notes[0];
+  }
+}
+
 TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   Robot robot = read_robot(kNomad);
   robot.geometry.wheel_radius_m = {0.1 / 3.0, 0.1};

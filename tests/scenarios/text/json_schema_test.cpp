@@ -101,8 +101,8 @@ const FileKind* kind_of(const Document& document) {
 }
 
 TEST(JsonSchema, EveryKindIsAValidJsonObjectWithItsId) {
-  const std::set<std::string> results{"plan",  "diagnosis", "sweep", "shard",         "controller",
-                                      "edges", "loss",      "drift", "fleet_schedule"};
+  const std::set<std::string> results{"plan",       "diagnosis", "after", "sweep", "shard",
+                                      "controller", "edges",     "loss",  "drift", "fleet_schedule"};
   for (const auto& kind : file_kinds()) {
     const Json schema = Json::parse(json_schema(kind));
     EXPECT_EQ(schema["$id"], "joulepath/" + kind.name + "/1");
