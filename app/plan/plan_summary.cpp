@@ -90,7 +90,7 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery, bool is_
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
   if (battery.voltage_error_V)
     stream << "battery voltage at its least charge on each leg, at most "
-           << figure(*battery.voltage_error_V, 2) << " V below the open-circuit curve\n";
+           << figure(*battery.voltage_error_V, 2) << " V from the open-circuit curve\n";
 }
 
 void print_winding(std::ostream& stream, const WindingAccount& winding) {

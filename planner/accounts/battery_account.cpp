@@ -85,12 +85,13 @@ class Charge {
   }
   /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
   double take_up(double power_W, double duration_s, double to_fraction) {
-    const double stored_W = stored_power_W(battery_, fraction(), power_W);
+    const double stored_W = stored_power_W(battery_, fraction(), power_W),
+                 accepted_W = accepted_power_W(battery_, fraction(), power_W);
     const double stored_J = std::clamp(energy_share_between(battery_, fraction(), to_fraction) * capacity_J_,
                                        0.0, std::max(0.0, stored_W * duration_s));
     net_J_ -= stored_J;
     least_net_J_ = std::min(least_net_J_, net_J_);
-    return stored_W > 0 ? stored_J * accepted_power_W(battery_, fraction(), power_W) / stored_W : 0.0;
+    return stored_W > 0 ? stored_J * accepted_W / stored_W : 0.0;
   }
 
  private:

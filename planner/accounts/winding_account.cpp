@@ -55,7 +55,9 @@ class Heating {
   explicit Heating(const Plant& plant)
       : plant_(plant),
         windings_{Winding(plant.robot.motor.left, Side::left),
-                  Winding(plant.robot.motor.right, Side::right)} {}
+                  Winding(plant.robot.motor.right, Side::right)} {
+    look();
+  }
 
   void add(const LegPlan& leg) {
     const Plant here = plant_in(plant_, leg.state);

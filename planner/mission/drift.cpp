@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "model/battery_charge.hpp"
+#include "model/winding.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr int kDriftRounds = 8;
+constexpr int kDriftRounds = 8, kFreeRounds = 4;
 constexpr double kSameVoltage = 1e-5, kSameResistance = 5e-4;  ///< relative
 constexpr int kHundred = 100;
 
@@ -20,6 +21,13 @@ double voltage_at_V(const Robot& robot, double fraction) {
                                                   : open_circuit_voltage_V(robot.battery, fraction);
 }
 
+/// The resistance that a plan leads to, at most that of the hottest winding that a plan may have.
+double allowed_factor(const Motor& motor, double factor) {
+  if (!motor.thermal) return factor;
+  return std::min(factor,
+                  copper_factor(*motor.thermal, motor.thermal->max_winding_C - motor.thermal->ambient_C));
+}
+
 /// The states of the legs that a plan leads to: the least charge on each of them, the mean resistance.
 std::vector<LegState> states_after(const Plan& plan, const Robot& robot, std::vector<LegState> states) {
   if (plan.battery)
@@ -27,7 +35,9 @@ std::vector<LegState> states_after(const Plan& plan, const Robot& robot, std::ve
       states[k].open_circuit_voltage_V = voltage_at_V(robot, plan.battery->least_fraction_on_leg[k]);
   if (plan.winding)
     for (std::size_t k = 0; k < plan.winding->resistance_factor_on_leg.size(); ++k)
-      states[k].resistance_factor = plan.winding->resistance_factor_on_leg[k];
+      for (const Side side : kSides)
+        states[k].resistance_factor[side] =
+            allowed_factor(robot.motor[side], plan.winding->resistance_factor_on_leg[k][side]);
   return states;
 }
 
@@ -62,15 +72,36 @@ LegState hardest(const std::vector<LegState>& states) {
 
 namespace {
 
+/// The states that the first plan assumes: cold windings, and no leg has drawn anything; a charger's stop
+/// fills the battery.
+std::vector<LegState> first_states(double price_of_heat, const MissionRequest& mission, const Robot& robot) {
+  double fraction = mission.start.battery_fraction.value_or(1.0);
+  std::vector<LegState> states;
+  for (const LegRequest& leg : mission.legs) {
+    states.push_back(
+        {.open_circuit_voltage_V = voltage_at_V(robot, fraction), .price_of_heat = price_of_heat});
+    const auto station = mission.stations.find(leg.to);
+    if (mission.charging && station != mission.stations.end() && station->second.charger_W > 0)
+      fraction = std::max(fraction, mission.charging->to_fraction);
+  }
+  return states;
+}
+
+/// Plans anew until the states stay. Where they do not stay soon, each leg keeps the hardest of its states,
+/// so that they can only move one way.
 Plan settled_at(double price_of_heat, const MissionRequest& mission, const Robot& robot,
                 const PlanInStates& plan_in) {
-  const double start_V = voltage_at_V(robot, mission.start.battery_fraction.value_or(1.0));
-  std::vector<LegState> states(mission.legs.size(),
-                               {.open_circuit_voltage_V = start_V, .price_of_heat = price_of_heat});
+  std::vector<LegState> states = first_states(price_of_heat, mission, robot);
   for (int round = 1;; ++round) {
     Plan plan = plan_in(states);
     if (is_emptied(plan)) return plan;  // at lower voltages it takes no less
     std::vector<LegState> next = states_after(plan, robot, states);
+    if (round > kFreeRounds)
+      for (std::size_t k = 0; k < next.size(); ++k) {
+        const double price = next[k].price_of_heat;
+        next[k] = hardest({states[k], next[k]});
+        next[k].price_of_heat = price;
+      }
     if (round == kDriftRounds || std::equal(states.begin(), states.end(), next.begin(), same)) return plan;
     states = std::move(next);
   }
@@ -85,7 +116,7 @@ bool is_too_hot(const Plan& plan) {
 }  // namespace
 
 Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanInStates& plan_in) {
-  constexpr double kFirstPrice = 0.5, kFactor = 3, kMostPrice = 40.5, kClose = 1.2;
+  constexpr double kFirstPrice = 0.02, kFactor = 3, kMostPrice = 43.74, kClose = 1.2;
   const auto at = [&](double price) { return settled_at(price, mission, robot, plan_in); };
   Plan plan = at(0);
   if (!is_too_hot(plan) || mission.objective.minimize == Objective::Minimize::time) return plan;
@@ -129,12 +160,12 @@ void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& pla
   if (verdict.constraint != "battery_reserve" || !verdict.relaxation.empty()) return;
   const BatteryAccount& account = *plan.battery;
   const double lowest =
-      *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
+      *std::min_element(account.least_fraction_on_leg.begin(), account.least_fraction_on_leg.end());
   const double usable =
       energy_share_between(robot.battery, robot.battery.reserve_fraction, account.start_fraction);
   if (!(usable > 0)) return;
-  double capacity_Wh = robot.battery.capacity_Wh * (1 + kRounding) *
-                       energy_share_between(robot.battery, lowest, account.start_fraction) / usable;
+  const double more = energy_share_between(robot.battery, lowest, account.start_fraction) / usable;
+  double capacity_Wh = robot.battery.capacity_Wh * std::max(1.0, more) * (1 + kRounding);
   for (int trial = 0; trial < kTrials; ++trial, capacity_Wh *= kMore)
     if (plans(capacity_Wh)) {
       verdict.relaxation["capacity_Wh"] = capacity_Wh;
@@ -145,7 +176,8 @@ void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& pla
 namespace {
 
 MissionRequest with_dwell(MissionRequest mission, double dwell_s) {
-  for (LegRequest& leg : mission.legs) leg.dwell_s = std::max(leg.dwell_s, dwell_s);
+  for (LegRequest& leg : mission.legs)
+    if (leg.end_speed_m_s == 0) leg.dwell_s = std::max(leg.dwell_s, dwell_s);
   for (VisitRequest& visit : mission.visit) visit.dwell_s = std::max(visit.dwell_s, dwell_s);
   return mission;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "model/assert.hpp"
 #include "model/battery_charge.hpp"
@@ -41,11 +42,11 @@ double wait_of(const std::vector<ProfileResult>& results, double duration_s) {
   return wait_s > kNoWait * duration_s ? wait_s : 0.0;
 }
 
-/// The bound of a stretch that was solved with a price of heat is one on all profiles with no more heat: the
-/// price of the profile's own heat is taken out of it.
-void take_price_out(StretchPlan& stretch, const ProfileRequest& priced) {
-  stretch.summary.lower_bound_J -=
-      energy_by_cause(path_motion(priced), stretch.profile).motion_J() - stretch.energy.motion_J();
+/// A bound L of J + price Q, with Q the copper loss and J the energy at the battery, is one of J on all
+/// profiles with no more copper loss than this one: J >= L - price Q (weak duality). What of the priced loss
+/// is recovered makes the priced energy no greater than J + price Q.
+void take_price_out(StretchPlan& stretch, double price_of_heat) {
+  stretch.summary.lower_bound_J -= price_of_heat * stretch.energy.copper_J;
   const double energy_J = stretch.energy.total_J();
   stretch.summary.gap_percent =
       100 * (energy_J - stretch.summary.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
@@ -71,13 +72,12 @@ void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
     if (k + 1 == results.size()) stretch.profile.wait_s += wait_s;
-    const ProfileRequest priced = stretch.request;
     if (leg.state.price_of_heat > 0) {
       stretch.request.plant = plant;
       stretch.request.limits.battery_voltage_V = motor_supply_V(plant.robot.battery);
     }
     account_for(stretch, uncertain, answers);
-    if (leg.state.price_of_heat > 0) take_price_out(stretch, priced);
+    if (leg.state.price_of_heat > 0) take_price_out(stretch, leg.state.price_of_heat);
     if (k + 1 == results.size()) bound_wait(stretch, wait_s, leg.price_of_time_W);
     leg.duration_s += stretch.profile.duration_s();
     leg.energy += stretch.energy;
@@ -346,6 +346,47 @@ Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const 
 
 }  // namespace
 
+namespace {
+
+using PlansMissionIn = std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&)>;
+
+/// Adds to a verdict what a battery or windings of other states would do: every offer was planned.
+void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionWorld& world,
+                       const PlansMissionIn& planned) {
+  const double start_fraction = asked.start.battery_fraction.value_or(1.0);
+  const auto plans = [&](const MissionRequest& mission, const Robot& robot) {
+    MissionWorld other = world;
+    other.robot = robot;
+    return planned(mission, other, make_plant(robot)).status <= SolveStatus::feasible;
+  };
+  const auto plans_with_resistance = [&](double resistance_ohm) {
+    Robot robot = world.robot;
+    robot.battery.internal_resistance_ohm = resistance_ohm;
+    return plans(asked, robot);
+  };
+  offer_charge(answer, world.robot, start_fraction, [&](double fraction) {
+    MissionRequest fuller = asked;
+    fuller.start.battery_fraction = fraction;
+    return plans(fuller, world.robot);
+  });
+  offer_capacity(answer, world.robot, [&](double capacity_Wh) {
+    Robot robot = world.robot;
+    robot.battery.capacity_Wh = capacity_Wh;
+    return plans(asked, robot);
+  });
+  offer_cooling(answer, asked, [&](const MissionRequest& mission) { return plans(mission, world.robot); });
+  name_battery_keys(answer, world.robot, plans_with_resistance);
+  if (answer.infeasibility->reason.constraint != "battery_power") return;
+  const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
+  // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
+  const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
+  Robot robot = world.robot;
+  robot.battery = at_charge(robot.battery, start_fraction);
+  blame_battery(answer, robot, payload, plans_with_resistance);
+}
+
+}  // namespace
+
 Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
                   const RouteSpace* space) {
   std::optional<RouteSpace> own_space;
@@ -358,31 +399,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     return (visits ? plan_stops : plan_with_stops)(mission, in, options, space, by, known);
   };
   Plan answer = planned(asked, world, plant);
-  offer_charge(answer, world.robot, asked.start.battery_fraction.value_or(1.0), [&](double fraction) {
-    MissionRequest fuller = asked;
-    fuller.start.battery_fraction = fraction;
-    return planned(fuller, world, plant).status <= SolveStatus::feasible;
-  });
-  offer_capacity(answer, world.robot, [&](double capacity_Wh) {
-    MissionWorld other = world;
-    other.robot.battery.capacity_Wh = capacity_Wh;
-    return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
-  });
-  offer_cooling(answer, asked, [&](const MissionRequest& mission) {
-    return planned(mission, world, plant).status <= SolveStatus::feasible;
-  });
-  const auto plans_with_resistance = [&](double resistance_ohm) {
-    MissionWorld other = world;
-    other.robot.battery.internal_resistance_ohm = resistance_ohm;
-    return planned(asked, other, make_plant(other.robot)).status <= SolveStatus::feasible;
-  };
-  if (answer.infeasibility) name_battery_keys(answer, world.robot, plans_with_resistance);
-  if (answer.infeasibility && answer.infeasibility->reason.constraint == "battery_power") {
-    const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
-    // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
-    const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
-    blame_battery(answer, world.robot, payload, plans_with_resistance);
-  }
+  if (answer.infeasibility) offer_what_drifts(answer, asked, world, planned);
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),

@@ -2,6 +2,7 @@
 
 #include "model/energy.hpp"
 #include "planner/path/geometry/path_fields.hpp"
+#include "planner/values/leg_state.hpp"
 #include "planner/values/profile_request.hpp"
 #include "planner/values/profile_result.hpp"
 #include "planner/values/replay_result.hpp"
@@ -80,10 +81,8 @@ void each_field(Archive& archive, TimeGoal& value) {
 inline void each_field(ByteWriter& archive, ProfileRequest& value) {
   auto& [piece, plant, limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
          draft, time_of_day_s, memory] = value;
-  const Robot& robot = plant.robot;
   archive(record_of(piece), limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
-          draft, time_of_day_s, memory, robot.battery.open_circuit_voltage_V, robot.motor.left.resistance_ohm,
-          robot.motor.right.resistance_ohm);
+          draft, time_of_day_s, memory, drifting_constants(plant));
 }
 
 }  // namespace joulepath

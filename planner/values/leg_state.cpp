@@ -21,6 +21,16 @@ Plant plant_in(Plant plant, const LegState& state) {
   return plant;
 }
 
+std::array<double, 6> drifting_constants(const Plant& plant) {
+  const auto& [left, right] = plant.robot.motor;
+  return {plant.robot.battery.open_circuit_voltage_V,
+          plant.robot.battery.internal_resistance_ohm,
+          left.resistance_ohm,
+          right.resistance_ohm,
+          left.max_voltage_V,
+          right.max_voltage_V};
+}
+
 Plant priced_plant_in(Plant plant, const LegState& state) {
   plant = plant_in(std::move(plant), state);
   if (state.price_of_heat == 0) return plant;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "model/plant.hpp"
 
 namespace joulepath {
@@ -20,6 +22,10 @@ struct LegState {
 /// The robot, or the plant, as it is on a leg.
 [[nodiscard]] Robot robot_in(Robot robot, const LegState& state);
 [[nodiscard]] Plant plant_in(Plant plant, const LegState& state);
+
+/// The plant's constants that differ between the legs of a mission, or between trials of a verdict: what of a
+/// plant is part of a cached question.
+[[nodiscard]] std::array<double, 6> drifting_constants(const Plant& plant);
 
 /// The plant with which a leg is planned: a price of heat is a higher resistance, R (1 + price). With a price
 /// no voltage limits the motors: their voltage is not the plant's. The replay checks it.

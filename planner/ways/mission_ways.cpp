@@ -6,6 +6,7 @@
 #include "planner/legs/floor_check.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/search/graph_route.hpp"
+#include "planner/values/leg_state.hpp"
 #include "planner/ways/way_fields.hpp"
 // Design: docs/decisions/0210-ways.md
 namespace joulepath {
@@ -88,9 +89,7 @@ std::vector<LegPath> MissionWays::choose_together(const Together& legs, const st
     return choose_run(run);
   };
   return remembered(options_.answers, "ways", compute, quick, legs.start, questions, options_.steps,
-                    options_.nodes, options_.accuracy, options_.seed,
-                    plant_.robot.battery.open_circuit_voltage_V, plant_.robot.motor.left.resistance_ohm,
-                    plant_.robot.motor.right.resistance_ohm);
+                    options_.nodes, options_.accuracy, options_.seed, drifting_constants(plant_));
 }
 
 LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {

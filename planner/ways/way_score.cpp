@@ -7,6 +7,7 @@
 #include "planner/legs/leg_timing.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/values/leg_state.hpp"
 #include "planner/ways/way_fields.hpp"
 
 namespace joulepath {
@@ -76,8 +77,8 @@ const TurnScores::Table& TurnScores::table(double payload_kg) {
   const auto [entry, fresh] = tables_.try_emplace(payload_kg);
   if (fresh)
     entry->second = remembered(
-        context_.options.answers, "turns", [&] { return tabulate(payload_kg); }, payload_kg,
-        context_.price_W);
+        context_.options.answers, "turns", [&] { return tabulate(payload_kg); }, payload_kg, context_.price_W,
+        drifting_constants(context_.plant));
   return entry->second;
 }
 

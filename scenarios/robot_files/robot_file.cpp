@@ -118,6 +118,10 @@ Battery read_battery(const Node& node) {
                   .reserve_fraction = node.number_or("reserve_fraction", 0.0),
                   .max_charge_current_A = node.number_or("max_charge_current_A", kNoLimit)};
   const auto curve = node.find("open_circuit_voltage");
+  if (const auto current = node.find("max_charge_current_A");
+      current && !curve && !std::isfinite(battery.open_circuit_voltage_V))
+    current->fail_found("a current without a voltage",
+                        "open_circuit_voltage or open_circuit_voltage_V beside it");
   if (!curve) return battery;
   if (const auto constant = node.find("open_circuit_voltage_V"))
     constant->fail_found("a constant beside the curve open_circuit_voltage", "one of both");

@@ -198,6 +198,25 @@ TEST(BatteryCharge, ATooSmallBatteryIsOfferedWhatWorks) {
   EXPECT_FALSE(drives(drive(mission, small)));
 }
 
+/// Behind a charger the motors have what it filled, though the mission begins nearly empty.
+TEST(BatteryCharge, ALegBehindAChargerHasWhatItFilled) {
+  const Robot robot = on_curve();
+  const PrescribedMotion quick{
+      .profile = MotionProfile::trapezoid, .acceleration_m_s2 = 0.2, .speed_m_s = 0.55, .distance_m = 5};
+  MissionRequest mission = lines(0.12, 1, 3);
+  mission.legs[0].to = "charger";
+  mission.legs[0].dwell_s = 3600;
+  mission.legs.push_back({.motion = quick, .payload = {4, 4}});
+  EXPECT_FALSE(drives(drive(mission, robot)));
+  mission.stations["charger"] = {.x_m = 3, .charger_W = 60};
+  mission.charging = ChargingRequest{.to_fraction = 0.95};
+  const Plan plan = drive(mission, robot);
+  ASSERT_TRUE(drives(plan)) << plan.message;
+  EXPECT_NEAR(plan.battery->fraction_after_leg[0], 0.95, 1e-9);
+  EXPECT_LT(plan.legs[1].state.open_circuit_voltage_V, open_circuit_voltage_V(robot.battery, 0.95));
+  EXPECT_GT(plan.legs[1].state.open_circuit_voltage_V, open_circuit_voltage_V(robot.battery, 0.8));
+}
+
 /// A constant voltage limits no motor: as before.
 TEST(BatteryCharge, WithoutACurveTheMotorsSeeNoBattery) {
   Robot robot = on_curve();

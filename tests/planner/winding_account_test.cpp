@@ -119,6 +119,50 @@ TEST(WindingLimit, IsKeptBySpeedWhereTimeIsFree) {
   EXPECT_LT(cool.gap_percent, 0.1) << "among plans with no more heat";
 }
 
+/// Whatever motion has no more copper loss needs no less than the bound, with braking that returns energy,
+/// too.
+TEST(WindingLimit, ItsBoundHoldsForMotionsThatHeatNoMore) {
+  Robot robot = tug(400);
+  robot.power.regeneration_efficiency = 0.9;
+  const Plan hot = drive(starts(4), robot);
+  for (const Side side : kSides)
+    robot.motor[side].thermal->max_winding_C = 25 + 0.8 * (hot.winding->highest_C - 25);
+  const Plan cool = drive(starts(4), robot);
+  ASSERT_TRUE(drives(cool)) << cool.message;
+  ASSERT_GT(cool.winding->price_of_heat, 0);
+  EXPECT_LE(cool.lower_bound_J, cool.energy.total_J());
+  int cooler = 0;
+  for (const double speed_m_s : {0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6})
+    for (const double acceleration_m_s2 : {0.03, 0.05, 0.1, 0.2, 0.35}) {
+      MissionRequest other = starts(4);
+      for (LegRequest& leg : other.legs) {
+        leg.path.reset();
+        leg.motion = PrescribedMotion{.profile = MotionProfile::trapezoid,
+                                      .acceleration_m_s2 = acceleration_m_s2,
+                                      .speed_m_s = speed_m_s,
+                                      .distance_m = 6};
+      }
+      const Plan driven = drive(other, robot);
+      if (!drives(driven) || driven.energy.copper_J > cool.energy.copper_J) continue;
+      ++cooler;
+      EXPECT_GE(driven.energy.total_J(), cool.lower_bound_J) << speed_m_s << " " << acceleration_m_s2;
+    }
+  EXPECT_GT(cooler, 3);
+}
+
+/// Legs that are passed at speed have no stop at which a dwell could cool.
+TEST(WindingLimit, LegsAtSpeedGetNoDwell) {
+  MissionRequest mission = starts(8, 400, 0);
+  mission.objective.minimize = Objective::Minimize::time;
+  mission.legs[0].end_speed_m_s = mission.legs[1].start_speed_m_s = 0.3;
+  const Plan hot = drive(mission, tug(400));
+  ASSERT_TRUE(drives(hot)) << hot.message;
+  const Plan refused = drive(mission, tug(25 + 0.9 * (hot.winding->highest_C - 25)));
+  ASSERT_TRUE(refused.infeasibility) << refused.message;
+  EXPECT_EQ(refused.infeasibility->reason.constraint, "winding_temperature");
+  EXPECT_TRUE(refused.infeasibility->reason.relaxation.contains("dwell_s")) << refused.message;
+}
+
 /// A motion that is given leaves no speed to give up: the verdict names leg, time and what was planned
 /// instead.
 TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {

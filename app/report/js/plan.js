@@ -141,7 +141,7 @@ jp.battery_section = function (plan) {
     h("p", {}, [`From ${fraction(battery.start_fraction, 5)} to ${fraction(battery.end_fraction, 5)}. `, interval ? `95 % interval of the end: ${fraction(interval[0], 5)} to ${fraction(interval[1], 5)}. ` : "", typeof plan.uncertainty === "string" ? `Uncertainty ${plan.uncertainty}. ` : "",
       is_number(battery.required_capacity_Wh) ? `Capacity needed: ${with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
       is_number(battery.missions_per_charge) ? `Missions per charge: ${short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
-      is_number(battery.voltage_error_V) ? `Each leg is planned with the voltage at its least charge, at most ${with_unit(battery.voltage_error_V, "V", 2)} below the open-circuit curve. ` : "",
+      is_number(battery.voltage_error_V) ? `Each leg is planned with the voltage at its least charge, at most ${with_unit(battery.voltage_error_V, "V", 2)} from the open-circuit curve. ` : "",
       battery.charged_J > 0 ? `Charged on the way: ${with_unit(battery.charged_J, "J")}. ` : "",
       is_number(plan.battery_loss_J) ? `Lost inside the battery: ${with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
 };
