@@ -18,6 +18,7 @@ struct Plant {
   double torque_loss_fraction{};  ///< of the gears
   double creep_m_s_N{};           ///< speed lost at the contact per force
   double driver_voltage_drop_V{};
+  Sided<double> heat_price_ohm{};  ///< W/A^2: what the current of a winding costs a planner beside its energy
 
   double payload_kg(double stated_kg) const { return payload_factor * stated_kg; }
   double resistance_factor(double time_of_day_s) const;

@@ -166,7 +166,7 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   const double margin_J =
       plan.sigma_has_model_error ? kNormal95OneSided * plan.energy_sigma_J.value_or(0.0) : 0.0;
   account.required_capacity_Wh = (charge.peak_J() + margin_J) / kJoulesPerWh;
-  const double usable_Wh = battery.capacity_Wh * (1.0 - battery.reserve_fraction);
+  const double usable_Wh = battery.capacity_Wh * energy_share_between(battery, battery.reserve_fraction, 1.0);
   account.missions_per_charge =
       account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : 0.0;
   return account;
@@ -208,21 +208,42 @@ namespace {
 
 /// The largest resistance below `fails_ohm` with which the mission is planned, to a tenth, from a guess on;
 /// nothing where a 256th of that is not enough.
-std::optional<double> planned_resistance_ohm(double guess_ohm, double fails_ohm,
-                                             const PlansWithResistance& plans) {
+std::optional<double> planned_resistance_ohm(double guess_ohm, const Robot& robot, const PlansBy& plans) {
   constexpr int kHalvings = 8;
   constexpr double kClose = 1.1, kNear = 1.09;  // a guess may be the end of what the battery supplies
-  double works_ohm = guess_ohm;
-  if (!plans(works_ohm)) fails_ohm = works_ohm, works_ohm /= kNear;
-  for (int halvings = 0; !plans(works_ohm); works_ohm *= 0.5, ++halvings) {
-    fails_ohm = works_ohm;
+  const auto works = [&](double resistance_ohm) {
+    Robot other = robot;
+    other.battery.internal_resistance_ohm = resistance_ohm;
+    return plans(other);
+  };
+  double works_ohm = guess_ohm, fails_ohm = robot.battery.internal_resistance_ohm;
+  bool found = works(works_ohm);
+  if (!found) fails_ohm = works_ohm, works_ohm /= kNear, found = works(works_ohm);
+  for (int halvings = 0; !found; ++halvings) {
     if (halvings == kHalvings) return std::nullopt;
+    fails_ohm = works_ohm, works_ohm *= 0.5, found = works(works_ohm);
   }
   while (fails_ohm > kClose * works_ohm) {
     const double between_ohm = std::sqrt(works_ohm * fails_ohm);
-    (plans(between_ohm) ? works_ohm : fails_ohm) = between_ohm;
+    (works(between_ohm) ? works_ohm : fails_ohm) = between_ohm;
   }
   return works_ohm;
+}
+
+/// The charge current (A) of a power into the terminals at an open-circuit voltage, or one up to 10 % above
+/// it, with which the mission is planned.
+std::optional<double> planned_charge_current_A(double power_W, const Robot& robot, double open_V,
+                                               const PlansBy& plans) {
+  constexpr int kTrials = 5;
+  constexpr double kMore = 1.02;
+  const double R = robot.battery.internal_resistance_ohm;
+  double current_A = 2 * power_W / (open_V + std::sqrt(open_V * open_V + 4 * R * power_W));
+  for (int trial = 0; trial < kTrials; ++trial, current_A *= kMore) {
+    Robot other = robot;
+    other.battery.max_charge_current_A = current_A;
+    if (plans(other)) return current_A;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -233,27 +254,27 @@ void tell_anew(Plan& plan, const std::string& told) {
   plan.message = verdict.message = sentence(verdict) + verdict.message.substr(told.size());
 }
 
-void name_battery_keys(Plan& plan, const Robot& robot, const PlansWithResistance& plans) {
+void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans) {
   Infeasibility& verdict = plan.infeasibility->reason;
   const std::string told = sentence(verdict);
-  const Battery& battery = robot.battery;
+  const Battery battery = robot_in(robot, plan.infeasibility->state).battery;
   const double ohm = battery.internal_resistance_ohm;
   if (const auto power = verdict.relaxation.find("charge_power_W"); power != verdict.relaxation.end()) {
-    const double U = battery.open_circuit_voltage_V, needed_W = power->second;
+    const double needed_W = power->second;
     verdict.relaxation.erase(power);
-    verdict.relaxation["max_charge_current_A"] = 2 * needed_W / (U + std::sqrt(U * U + 4 * ohm * needed_W));
+    if (const auto planned = planned_charge_current_A(needed_W, robot, battery.open_circuit_voltage_V, plans))
+      verdict.relaxation["max_charge_current_A"] = *planned;
   }
   if (verdict.relaxation.erase("battery_voltage_V") > 0 && ohm > 0)
-    if (const auto planned = planned_resistance_ohm(0.5 * ohm, ohm, plans))
+    if (const auto planned = planned_resistance_ohm(0.5 * ohm, robot, plans))
       verdict.relaxation["internal_resistance_ohm"] = *planned;
   if (sentence(verdict) != told) tell_anew(plan, told);
 }
 
-void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
-                   const PlansWithResistance& plans) {
+void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload, const PlansBy& plans) {
   Infeasibility& verdict = plan.infeasibility->reason;
   const auto power = verdict.relaxation.find("battery_power_W");
-  const double most_W = planned_battery_power_W(robot.battery);
+  const double most_W = planned_battery_power_W(robot_in(robot, plan.infeasibility->state).battery);
   const double stated_W = limits_between_payloads(robot, payload.from_kg, payload.to_kg).battery_power_W;
   if (most_W >= stated_W) return;
   const std::string cause = sentence(verdict);
@@ -262,8 +283,8 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
     verdict.relaxation.erase(power);
     // Power is inverse to the resistance.
     if (needed_W <= stated_W)
-      if (const double ohm = robot.battery.internal_resistance_ohm;
-          const auto planned = planned_resistance_ohm(ohm * most_W / needed_W, ohm, plans))
+      if (const auto planned =
+              planned_resistance_ohm(robot.battery.internal_resistance_ohm * most_W / needed_W, robot, plans))
         verdict.relaxation["internal_resistance_ohm"] = *planned;
   }
   std::ostringstream text;
@@ -278,15 +299,16 @@ std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& pl
   const BatteryAccount& account = *plan.battery;
   const Battery& battery = plant.robot.battery;
   const double lowest =
-      *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
+      *std::min_element(account.least_fraction_on_leg.begin(), account.least_fraction_on_leg.end());
   const Pose& pose = plan.legs[*account.fails_on_leg].start_pose;
-  return Infeasibility{.constraint = "battery_reserve",
-                       .x_m = pose.x_m,
-                       .y_m = pose.y_m,
-                       .amount = (battery.reserve_fraction - lowest) * battery.capacity_Wh,
-                       .unit = "Wh",
-                       .relaxation = enough_charge(account, battery),
-                       .message = "the battery falls below its reserve on the way"};
+  return Infeasibility{
+      .constraint = "battery_reserve",
+      .x_m = pose.x_m,
+      .y_m = pose.y_m,
+      .amount = energy_share_between(battery, lowest, battery.reserve_fraction) * battery.capacity_Wh,
+      .unit = "Wh",
+      .relaxation = enough_charge(account, battery),
+      .message = "the battery falls below its reserve on the way"};
 }
 
 }  // namespace joulepath

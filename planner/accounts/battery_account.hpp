@@ -23,17 +23,16 @@ namespace joulepath {
 /// The verdict on a battery that cannot feed a robot that only stands (W of standby); nothing if it can.
 [[nodiscard]] std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& pose);
 
-/// Whether the whole mission is planned with a battery of this resistance (ohm).
-using PlansWithResistance = std::function<bool(double)>;
+/// Whether the whole mission is planned with another robot.
+using PlansBy = std::function<bool(const Robot&)>;
 
 /// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), and not the one that the robot
 /// file states for the payload of the leg, names an internal resistance with which the mission was planned.
-void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
-                   const PlansWithResistance& plans);
+void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload, const PlansBy& plans);
 
 /// A verdict on the battery's voltage or its charging power offers keys of the robot file instead of these
-/// values: an internal resistance with which the mission was planned, the greatest charge current.
-void name_battery_keys(Plan& plan, const Robot& robot, const PlansWithResistance& plans);
+/// values: an internal resistance or a greatest charge current with which the mission was planned.
+void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans);
 
 /// Replaces the sentence of a plan's verdict in its message, `told`, by the one of its present relaxations.
 void tell_anew(Plan& plan, const std::string& told);

@@ -5,6 +5,7 @@
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/values/leg_state.hpp"
 
 namespace joulepath {
 namespace {
@@ -55,7 +56,7 @@ class Rows {
          .payload_kg = leg.payload.from_kg,
          .from = sampled_state(motion, motion.time_s.front()).pose,
          .to = end_pose(motion),
-         .energy = prescribed_energy(leg, plant_)});
+         .energy = prescribed_energy(leg, plant_in(plant_, leg.state))});
   }
 
   /// The row of a part of a stretch between two path coordinates.

@@ -27,7 +27,7 @@ class Winding {
     if (!is_stated()) return;
     const double before = copper_factor(*motor_.thermal, rise_K_);
     const double cold_ohm = resistance_factor * motor_.resistance_ohm;
-    rise_K_ = rise_after_K(*motor_.thermal, cold_ohm, rise_K_, current_A, time_s);
+    rise_K_ = std::min(rise_after_K(*motor_.thermal, cold_ohm, rise_K_, current_A, time_s), runaway_K());
     const double cold_J = cold_ohm * current_A * current_A * time_s;
     cold_loss_ += cold_J;
     loss_ += 0.5 * (before + copper_factor(*motor_.thermal, rise_K_)) * cold_J;
@@ -43,6 +43,9 @@ class Winding {
   }
 
  private:
+  /// A rise beyond which no more is counted: the winding has been too hot for long.
+  double runaway_K() const { return 10 * (motor_.thermal->max_winding_C - motor_.thermal->ambient_C); }
+
   const Motor& motor_;
   Side side_;
   double rise_K_{};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "model/battery_charge.hpp"
 #include "model/winding.hpp"
@@ -87,23 +89,70 @@ std::vector<LegState> first_states(double price_of_heat, const MissionRequest& m
   return states;
 }
 
+/// Both states' hardest values; the price of heat is the first one's.
+LegState harder(const LegState& a, const LegState& b) {
+  LegState result = hardest({a, b});
+  result.price_of_heat = a.price_of_heat;
+  return result;
+}
+
+/// Half way from one state to another.
+LegState between(const LegState& a, const LegState& b) {
+  const auto middle = [](double x, double y) { return x == y ? x : 0.5 * (x + y); };
+  LegState result = a;
+  result.open_circuit_voltage_V = middle(a.open_circuit_voltage_V, b.open_circuit_voltage_V);
+  for (const Side side : kSides)
+    result.resistance_factor[side] = middle(a.resistance_factor[side], b.resistance_factor[side]);
+  return result;
+}
+
+std::vector<LegState> each(LegState combine(const LegState&, const LegState&), std::vector<LegState> a,
+                           const std::vector<LegState>& b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), combine);
+  return a;
+}
+
+bool is_accounted(const Plan& plan) { return plan.battery || plan.winding; }
+
+Plan with_state(Plan plan, const std::vector<LegState>& states) {
+  if (plan.infeasibility && plan.infeasibility->leg < states.size())
+    plan.infeasibility->state = states[plan.infeasibility->leg];
+  return plan;
+}
+
+/// A mission at one price of heat: the plan in its own states, and the one in the easiest states, which
+/// bounds it.
+struct SettledPlan {
+  Plan plan{};
+  Plan easiest{};
+};
+
 /// Plans anew until the states stay. Where they do not stay soon, each leg keeps the hardest of its states,
-/// so that they can only move one way.
-Plan settled_at(double price_of_heat, const MissionRequest& mission, const Robot& robot,
-                const PlanInStates& plan_in) {
-  std::vector<LegState> states = first_states(price_of_heat, mission, robot);
+/// so that they can only move one way. A plan that drove too hard may leave too little to the legs behind it:
+/// then the states between its own and those that it leads to are tried.
+SettledPlan settled_at(double price_of_heat, const MissionRequest& mission, const Robot& robot,
+                       const PlanInStates& plan_in) {
+  std::vector<LegState> states = first_states(price_of_heat, mission, robot), before;
+  SettledPlan result;
+  std::optional<Plan> refused;  ///< a verdict of the accounts, should no later plan stand
   for (int round = 1;; ++round) {
-    Plan plan = plan_in(states);
-    if (is_emptied(plan)) return plan;  // at lower voltages it takes no less
+    Plan plan = with_state(plan_in(states), states);
+    if (round == 1) result.easiest = plan;
+    if (!is_accounted(plan)) {
+      const bool ends = before.empty() || round >= kDriftRounds;
+      if (ends) result.plan = refused ? std::move(*refused) : std::move(plan);
+      if (ends) return result;
+      states = each(between, std::move(states), before);
+      continue;
+    }
     std::vector<LegState> next = states_after(plan, robot, states);
-    if (round > kFreeRounds)
-      for (std::size_t k = 0; k < next.size(); ++k) {
-        const double price = next[k].price_of_heat;
-        next[k] = hardest({states[k], next[k]});
-        next[k].price_of_heat = price;
-      }
-    if (round == kDriftRounds || std::equal(states.begin(), states.end(), next.begin(), same)) return plan;
-    states = std::move(next);
+    if (round > kFreeRounds) next = each(harder, std::move(next), states);
+    if (round > kDriftRounds || std::equal(states.begin(), states.end(), next.begin(), same)) {
+      result.plan = std::move(plan);
+      return result;
+    }
+    if (plan.infeasibility) refused = std::move(plan);
+    before = std::exchange(states, std::move(next));
   }
 }
 
@@ -113,18 +162,47 @@ bool is_too_hot(const Plan& plan) {
   return plan.infeasibility && plan.infeasibility->reason.constraint == "winding_temperature";
 }
 
-}  // namespace
+/// The bound of a leg follows from that of the same path in easier states, at whatever price of time mu:
+/// E(T) >= bound(T0) + mu (T0 - T). Nothing where the paths differ, or where the bound is one of time.
+double bound_from(const LegPlan& easiest, const LegPlan& leg) {
+  constexpr double kSame = 1e-9;
+  const bool same_path = std::abs(easiest.distance_m - leg.distance_m) <= kSame &&
+                         std::abs(easiest.turned_rad - leg.turned_rad) <= kSame;
+  if (!same_path) return std::nan("");
+  return easiest.lower_bound_J + easiest.price_of_time_W * (easiest.duration_s - leg.duration_s);
+}
 
-Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanInStates& plan_in) {
+/// A plan is bounded by the one in the easiest states, cold windings and undrawn charge: with less resistance
+/// each motion needs less, with more voltage more motions are possible.
+void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
+  if (!drives_within_limits(plan) || std::isnan(plan.gap_percent)) return;
+  double bound_J = 0;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    LegPlan& leg = plan.legs[k];
+    const double energy_J = leg.energy.total_J();
+    leg.lower_bound_J = bound_from(easiest.legs.at(k), leg);
+    if (leg.lower_bound_J > energy_J) leg.lower_bound_J = energy_J;  // rounding
+    if (!std::isnan(leg.lower_bound_J))
+      leg.gap_percent = 100 * (energy_J - leg.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+    bound_J += leg.lower_bound_J;
+  }
+  const double energy_J = plan.energy.total_J();
+  plan.lower_bound_J = bound_J;
+  plan.gap_percent = std::isnan(bound_J)
+                         ? 100 * (1 - (1 - 0.01 * easiest.gap_percent) * easiest.duration_s / plan.duration_s)
+                         : 100 * (energy_J - bound_J) / std::max(1e-9, std::abs(energy_J));
+  plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
+}
+
+/// The least price of heat, to kClose, with which a mission keeps its temperatures; nothing where no price
+/// that was tried does.
+std::optional<Plan> cool_plan(const std::function<Plan(double)>& at) {
   constexpr double kFirstPrice = 0.02, kFactor = 3, kMostPrice = 43.74, kClose = 1.2;
-  const auto at = [&](double price) { return settled_at(price, mission, robot, plan_in); };
-  Plan plan = at(0);
-  if (!is_too_hot(plan) || mission.objective.minimize == Objective::Minimize::time) return plan;
-  if (is_too_hot(at(kMostPrice))) return plan;
+  if (is_too_hot(at(kMostPrice))) return std::nullopt;
   double bad = 0, good = kFirstPrice;
   Plan cool = at(good);
   while (!drives_within_limits(cool) && good < kMostPrice) bad = good, good *= kFactor, cool = at(good);
-  if (!drives_within_limits(cool)) return plan;
+  if (!drives_within_limits(cool)) return std::nullopt;
   while (bad > 0 && good > kClose * bad) {
     const double middle = std::sqrt(bad * good);
     Plan between = at(middle);
@@ -136,10 +214,23 @@ Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanI
   return cool;
 }
 
-bool offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans) {
-  if (robot.battery.open_circuit_curve.empty() || !plan.infeasibility || start_fraction >= 1) return false;
+}  // namespace
+
+Plan settled_plan(const MissionRequest& mission, const Robot& robot, double accuracy,
+                  const PlanInStates& plan_in) {
+  auto [plan, easiest] = settled_at(0, mission, robot, plan_in);
+  if (is_too_hot(plan) && mission.objective.minimize != Objective::Minimize::time) {
+    const auto at = [&](double price) { return settled_at(price, mission, robot, plan_in).plan; };
+    if (std::optional<Plan> cool = cool_plan(at)) plan = std::move(*cool);
+  }
+  bound_by(plan, easiest, accuracy);
+  return std::move(plan);
+}
+
+void offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans) {
+  if (robot.battery.open_circuit_curve.empty() || !plan.infeasibility || start_fraction >= 1) return;
   Infeasibility& verdict = plan.infeasibility->reason;
-  if (!may_lack_charge(verdict.constraint) || !plans(1.0)) return false;
+  if (!may_lack_charge(verdict.constraint) || !plans(1.0)) return;
   int bad = static_cast<int>(std::floor(start_fraction * kHundred)), good = kHundred;
   while (good > bad + 1) {
     const int middle = (good + bad) / 2;
@@ -149,11 +240,10 @@ bool offer_charge(Plan& plan, const Robot& robot, double start_fraction, const P
   if (verdict.constraint.starts_with("battery_")) verdict.relaxation.clear();
   verdict.relaxation["battery_fraction"] = static_cast<double>(good) / kHundred;
   tell_anew(plan, told);
-  return true;
 }
 
 void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& plans) {
-  constexpr int kTrials = 40;
+  constexpr int kTrials = 12;
   constexpr double kMore = 1.02, kRounding = 1e-6;
   if (robot.battery.open_circuit_curve.empty() || !plan.infeasibility || !plan.battery) return;
   Infeasibility& verdict = plan.infeasibility->reason;

@@ -15,17 +15,20 @@ namespace joulepath {
 using PlanInStates = std::function<Plan(const std::vector<LegState>&)>;
 
 /// A plan whose legs are in the states that it leads to: the states of a plan are those of the next one,
-/// until they stay. The first one begins everywhere as the mission does. A leg has the least open-circuit
-/// voltage of its charges.
-[[nodiscard]] Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanInStates& plan);
+/// until they stay. The first one begins with cold windings and an undrawn charge, so that its bounds are
+/// those of every plan. A leg has the least open-circuit voltage of its charges. Where windings are too hot,
+/// the least price of heat that keeps them is paid, unless the least time is asked for. `accuracy`: a plan
+/// whose gap is at most this is optimal.
+[[nodiscard]] Plan settled_plan(const MissionRequest& mission, const Robot& robot, double accuracy,
+                                const PlanInStates& plan);
 
 /// Whether a mission is planned with a state of charge at its start.
 using PlansWithFraction = std::function<bool(double)>;
 
 /// Adds to the verdict on a mission that a fuller battery may drive the least `battery_fraction`, in
 /// hundredths, with which it was planned; a verdict on the battery itself gets no other relaxation then.
-/// For batteries with a curve. True if there is one.
-bool offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans);
+/// For batteries with a curve.
+void offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans);
 
 /// Whether a mission is planned with a battery of this capacity (Wh).
 using PlansWithCapacity = std::function<bool(double)>;

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "model/assert.hpp"
-#include "model/battery_charge.hpp"
+#include "model/config_error.hpp"
 #include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
@@ -72,10 +72,7 @@ void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
     if (k + 1 == results.size()) stretch.profile.wait_s += wait_s;
-    if (leg.state.price_of_heat > 0) {
-      stretch.request.plant = plant;
-      stretch.request.limits.battery_voltage_V = motor_supply_V(plant.robot.battery);
-    }
+    stretch.request.plant.heat_price_ohm = {};
     account_for(stretch, uncertain, answers);
     if (leg.state.price_of_heat > 0) take_price_out(stretch, leg.state.price_of_heat);
     if (k + 1 == results.size()) bound_wait(stretch, wait_s, leg.price_of_time_W);
@@ -248,7 +245,7 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
                      std::optional<double> way_price_W = {}) {
   if (!drifts(world.robot))
     return plan_in_states(mission, world, options, space, plant, {}, known, way_price_W);
-  return settled_plan(mission, world.robot, [&](const std::vector<LegState>& states) {
+  return settled_plan(mission, world.robot, options.accuracy, [&](const std::vector<LegState>& states) {
     return plan_in_states(mission, world, options, space, plant, states, known, way_price_W);
   });
 }
@@ -350,20 +347,24 @@ namespace {
 
 using PlansMissionIn = std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&)>;
 
+constexpr int kMostTrials = 60;  ///< plans of one verdict
+
 /// Adds to a verdict what a battery or windings of other states would do: every offer was planned.
 void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionWorld& world,
                        const PlansMissionIn& planned) {
   const double start_fraction = asked.start.battery_fraction.value_or(1.0);
+  int trials = 0;
   const auto plans = [&](const MissionRequest& mission, const Robot& robot) {
+    if (++trials > kMostTrials) return false;
     MissionWorld other = world;
     other.robot = robot;
-    return planned(mission, other, make_plant(robot)).status <= SolveStatus::feasible;
+    try {
+      return planned(mission, other, make_plant(robot)).status <= SolveStatus::feasible;
+    } catch (const ConfigError&) {  // of a leg that no plan reached before
+      return false;
+    }
   };
-  const auto plans_with_resistance = [&](double resistance_ohm) {
-    Robot robot = world.robot;
-    robot.battery.internal_resistance_ohm = resistance_ohm;
-    return plans(asked, robot);
-  };
+  const auto plans_by = [&](const Robot& robot) { return plans(asked, robot); };
   offer_charge(answer, world.robot, start_fraction, [&](double fraction) {
     MissionRequest fuller = asked;
     fuller.start.battery_fraction = fraction;
@@ -375,14 +376,12 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     return plans(asked, robot);
   });
   offer_cooling(answer, asked, [&](const MissionRequest& mission) { return plans(mission, world.robot); });
-  name_battery_keys(answer, world.robot, plans_with_resistance);
+  name_battery_keys(answer, world.robot, plans_by);
   if (answer.infeasibility->reason.constraint != "battery_power") return;
   const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
   // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
   const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
-  Robot robot = world.robot;
-  robot.battery = at_charge(robot.battery, start_fraction);
-  blame_battery(answer, robot, payload, plans_with_resistance);
+  blame_battery(answer, world.robot, payload, plans_by);
 }
 
 }  // namespace
@@ -399,7 +398,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     return (visits ? plan_stops : plan_with_stops)(mission, in, options, space, by, known);
   };
   Plan answer = planned(asked, world, plant);
-  if (answer.infeasibility) offer_what_drifts(answer, asked, world, planned);
+  if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, planned);
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),

@@ -114,9 +114,6 @@ class LegPreparation {
     const Plant priced = states_.empty() ? plant : priced_plant_in(plant_, states_[k]);
     prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world, priced, options_, memory_),
                                   options_.answers);
-    if (state_of(k).price_of_heat > 0)
-      for (ProfileRequest& stretch : prepared_.timing.back().stretches())
-        stretch.limits.battery_voltage_V = kNoLimit;
     prepared_.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                               .path_source = way.source,
                               .payload = leg.payload,

@@ -113,7 +113,8 @@ class LeastCost {
 /// where the load changes its sign.
 void bend(WheelPower& wheel, const Plant& plant, Side side, const Site& site, const Line& speed_rad_s) {
   const Motor& motor = plant.robot.motor[side];
-  const double resistance_ohm = plant.resistance_factor(site.time_of_day_s) * motor.resistance_ohm;
+  const double resistance_ohm =
+      plant.resistance_factor(site.time_of_day_s) * motor.resistance_ohm + plant.heat_price_ohm[side];
   const double loss = plant.torque_loss_fraction * site.wheel_direction[side];
   const Line load_A = wheel.current_A;
   const auto piece = [&](double sign) {
@@ -160,12 +161,20 @@ double PlaceCost::at(double u, double a) const {
   const Plant& plant = model_->motion.plant();
   const Sided<WheelState<double>> wheels =
       operating_point(plant, PathMotion::body_motion(rates_, u, a), planned_);
-  return model_->time_W + supply_power_W(plant.robot.power, {wheels.left.power_W, wheels.right.power_W});
+  const auto cost_W = [&](Side side) {
+    return wheels[side].power_W +
+           plant.heat_price_ohm[side] * wheels[side].current_A * wheels[side].current_A;
+  };
+  return model_->time_W + supply_power_W(plant.robot.power, {cost_W(Side::left), cost_W(Side::right)});
 }
 
 double PlaceCost::least(double u, double q) const {
-  const Sided<WheelPower> wheels = wheels_at(u);
+  Sided<WheelPower> wheels = wheels_at(u);
   const Range range = accelerations(u, wheels);
+  for (const Side side : kSides)
+    if (const double price_ohm = model_->unbent.heat_price_ohm[side]; price_ohm > 0 && !wheels[side].bent())
+      wheels[side].below =
+          sum(1, wheels[side].below, price_ohm, wheels[side].current_A * wheels[side].current_A);
   return model_->time_W + LeastCost(model_->unbent.robot.power, wheels, q, range).find();
 }
 

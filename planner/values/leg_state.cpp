@@ -27,17 +27,14 @@ std::array<double, 6> drifting_constants(const Plant& plant) {
           plant.robot.battery.internal_resistance_ohm,
           left.resistance_ohm,
           right.resistance_ohm,
-          left.max_voltage_V,
-          right.max_voltage_V};
+          plant.heat_price_ohm.left,
+          plant.heat_price_ohm.right};
 }
 
 Plant priced_plant_in(Plant plant, const LegState& state) {
   plant = plant_in(std::move(plant), state);
-  if (state.price_of_heat == 0) return plant;
-  for (const Side side : kSides) {
-    plant.robot.motor[side].resistance_ohm *= 1 + state.price_of_heat;
-    plant.robot.motor[side].max_voltage_V = kNoLimit;
-  }
+  for (const Side side : kSides)
+    plant.heat_price_ohm[side] = state.price_of_heat * plant.robot.motor[side].resistance_ohm;
   return plant;
 }
 

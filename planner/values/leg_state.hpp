@@ -27,8 +27,7 @@ struct LegState {
 /// plant is part of a cached question.
 [[nodiscard]] std::array<double, 6> drifting_constants(const Plant& plant);
 
-/// The plant with which a leg is planned: a price of heat is a higher resistance, R (1 + price). With a price
-/// no voltage limits the motors: their voltage is not the plant's. The replay checks it.
+/// The plant with which a leg is planned, with its price of heat.
 [[nodiscard]] Plant priced_plant_in(Plant plant, const LegState& state);
 
 }  // namespace joulepath

@@ -108,6 +108,7 @@ struct PlanInfeasibility {
   Infeasibility reason{};
   std::size_t leg{};
   double arc_length_m{};  ///< along the leg
+  LegState state{};       ///< of battery and windings on the leg
 };
 
 /// The chosen order of stops of a mission with `visit:`.

@@ -184,14 +184,24 @@ Json sided_list_json(const std::vector<Sided<double>>& values) {
   return list;
 }
 
-Json winding_json(const WindingAccount& winding) {
+/// How the legs were planned.
+template <class Value>
+Json list_of_states(const Plan& plan, Value&& value) {
+  Json list = Json::array();
+  for (const LegPlan& leg : plan.legs) list.push_back(value(leg.state));
+  return list;
+}
+
+Json winding_json(const Plan& plan) {
+  const WindingAccount& winding = *plan.winding;
   return {{"highest_C", winding.highest_C},
           {"side", side_name(winding.side)},
           {"above_limit_K", winding.above_limit_K},
           {"price_of_heat", winding.price_of_heat},
           {"highest_on_leg_C", sided_list_json(winding.hottest_on_leg_C)},
           {"after_leg_C", sided_list_json(winding.after_leg_C)},
-          {"resistance_factor_on_leg", sided_list_json(winding.resistance_factor_on_leg)}};
+          {"resistance_factor_on_leg",
+           list_of_states(plan, [](const LegState& state) { return sided_json(state.resistance_factor); })}};
 }
 
 Json infeasibility_json(const PlanInfeasibility& verdict) {
@@ -227,7 +237,10 @@ void add_results(const Plan& plan, Json& json) {
                     {"worst_violation", plan.worst_violation},
                     {"limit", plan.worst_limit}};
   if (plan.battery) json["battery"] = battery_json(*plan.battery);
-  if (plan.winding) json["winding"] = winding_json(*plan.winding);
+  if (plan.battery && plan.battery->voltage_error_V)
+    json["battery"]["open_circuit_voltage_on_leg_V"] =
+        list_of_states(plan, [](const LegState& state) { return state.open_circuit_voltage_V; });
+  if (plan.winding) json["winding"] = winding_json(plan);
   if (plan.visit)
     json["visit"] = {{"order", plan.visit->order},
                      {"exact", plan.visit->exact},

@@ -95,7 +95,9 @@ Schema battery_result_schema() {
            required("missions_per_charge", result()),
            optional("voltage_error_V", result(),
                     "with an open-circuit curve: how far the voltage on a leg is at most from the one "
-                    "at its least charge, with which the leg was planned")}));
+                    "with which the leg was planned"),
+           optional("open_circuit_voltage_on_leg_V", list(number()),
+                    "with an open-circuit curve: the voltage with which each leg was planned")}));
 }
 
 Schema winding_result_schema() {
@@ -104,7 +106,7 @@ Schema winding_result_schema() {
                    required("above_limit_K", result(), "negative: that much below max_winding_C"),
                    required("price_of_heat", result(),
                             "joules that a joule of copper loss counted beside itself, so that the limit is "
-                            "kept; with it bounds are those of plans with no more heat"),
+                            "kept"),
                    required("highest_on_leg_C", list(sides)), required("after_leg_C", list(sides)),
                    required("resistance_factor_on_leg", list(sides),
                             "of the copper relative to the cold one, with which the leg was planned")}));

@@ -64,6 +64,15 @@ void check_heat(const Node& root, const Robot& robot) {
                                  "both are the law of the same winding");
 }
 
+/// An uncertain voltage is the constant one: a curve has none of its own.
+void check_battery(const Node& root, const Robot& robot) {
+  const auto uncertainty = root.find("uncertainty");
+  if (robot.battery.open_circuit_curve.empty() || !uncertainty) return;
+  if (const auto voltage = uncertainty->find("open_circuit_voltage_V"))
+    voltage->fail_found("the sigma of a constant voltage beside the curve open_circuit_voltage",
+                        "no such key");
+}
+
 /// Ray casting, edges not included.
 bool is_inside(const Footprint& footprint, double x_m, double y_m) {
   if (footprint.polygon_m.empty()) return std::hypot(x_m, y_m) <= footprint.radius_m;
@@ -89,6 +98,7 @@ void check_robot(const Node& root, const Robot& robot) {
         units_mixed_up(motor));
   }
   check_heat(root, robot);
+  check_battery(root, robot);
 }
 
 void check_polygon(const Node& polygon, const std::vector<std::array<double, 2>>& corners) {

@@ -43,12 +43,12 @@ MissionRequest starts(int count, double payload_kg = 400, double dwell_s = 1) {
   return mission;
 }
 
-Plan drive(const MissionRequest& mission, const Robot& robot) {
+Plan tow(const MissionRequest& mission, const Robot& robot) {
   return plan_mission(mission, {.robot = robot},
                       {.solver = SolverChoice::fast, .nodes = 25, .baselines = false});
 }
 
-bool drives(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
+bool is_towed(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
 /// The temperatures of both windings from the rows of a plan alone, by small explicit steps.
 Sided<double> highest_C(const Plan& plan, const Robot& robot) {
@@ -72,8 +72,8 @@ Sided<double> highest_C(const Plan& plan, const Robot& robot) {
 
 TEST(WindingAccount, AgreesWithStepsAlongTheRowsOfThePlan) {
   const Robot robot = tug(400);
-  const Plan plan = drive(starts(12), robot);
-  ASSERT_TRUE(drives(plan)) << plan.message;
+  const Plan plan = tow(starts(12), robot);
+  ASSERT_TRUE(is_towed(plan)) << plan.message;
   ASSERT_TRUE(plan.winding);
   const Sided<double> most_C = highest_C(plan, robot);
   EXPECT_NEAR(plan.winding->highest_C, std::max(most_C.left, most_C.right), 1.0);
@@ -82,8 +82,8 @@ TEST(WindingAccount, AgreesWithStepsAlongTheRowsOfThePlan) {
 
 /// Equal starts: after each one the rise is q x + h, so it approaches h/(1 - q).
 TEST(WindingAccount, EqualStartsApproachTheirStationaryCycle) {
-  const Plan plan = drive(starts(40), tug(400));
-  ASSERT_TRUE(drives(plan)) << plan.message;
+  const Plan plan = tow(starts(40), tug(400));
+  ASSERT_TRUE(is_towed(plan)) << plan.message;
   const auto rise_K = [&](std::size_t leg) { return plan.winding->after_leg_C[leg].left - 25; };
   const double q = (rise_K(2) - rise_K(1)) / (rise_K(1) - rise_K(0)), stationary_K = rise_K(0) / (1 - q);
   EXPECT_GT(q, 0.5);
@@ -91,8 +91,8 @@ TEST(WindingAccount, EqualStartsApproachTheirStationaryCycle) {
 }
 
 TEST(WindingAccount, TheResistanceOfALegIsTheOneOfItsTemperature) {
-  const Plan plan = drive(starts(8), tug(400));
-  ASSERT_TRUE(drives(plan)) << plan.message;
+  const Plan plan = tow(starts(8), tug(400));
+  ASSERT_TRUE(is_towed(plan)) << plan.message;
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
     for (const Side side : kSides) {
       const double before_C = k == 0 ? 25 : plan.winding->after_leg_C[k - 1][side];
@@ -104,12 +104,12 @@ TEST(WindingAccount, TheResistanceOfALegIsTheOneOfItsTemperature) {
 }
 
 TEST(WindingLimit, IsKeptBySpeedWhereTimeIsFree) {
-  const Plan hot = drive(starts(8), tug(400));
-  ASSERT_TRUE(drives(hot)) << hot.message;
+  const Plan hot = tow(starts(8), tug(400));
+  ASSERT_TRUE(is_towed(hot)) << hot.message;
   const double limit_C = 25 + 0.8 * (hot.winding->highest_C - 25);
   const Robot robot = tug(limit_C);
-  const Plan cool = drive(starts(8), robot);
-  ASSERT_TRUE(drives(cool)) << cool.message;
+  const Plan cool = tow(starts(8), robot);
+  ASSERT_TRUE(is_towed(cool)) << cool.message;
   EXPECT_LE(cool.winding->highest_C, limit_C);
   EXPECT_GT(cool.winding->price_of_heat, 0);
   EXPECT_GT(cool.duration_s, hot.duration_s);
@@ -124,11 +124,11 @@ TEST(WindingLimit, IsKeptBySpeedWhereTimeIsFree) {
 TEST(WindingLimit, ItsBoundHoldsForMotionsThatHeatNoMore) {
   Robot robot = tug(400);
   robot.power.regeneration_efficiency = 0.9;
-  const Plan hot = drive(starts(4), robot);
+  const Plan hot = tow(starts(4), robot);
   for (const Side side : kSides)
     robot.motor[side].thermal->max_winding_C = 25 + 0.8 * (hot.winding->highest_C - 25);
-  const Plan cool = drive(starts(4), robot);
-  ASSERT_TRUE(drives(cool)) << cool.message;
+  const Plan cool = tow(starts(4), robot);
+  ASSERT_TRUE(is_towed(cool)) << cool.message;
   ASSERT_GT(cool.winding->price_of_heat, 0);
   EXPECT_LE(cool.lower_bound_J, cool.energy.total_J());
   int cooler = 0;
@@ -142,8 +142,8 @@ TEST(WindingLimit, ItsBoundHoldsForMotionsThatHeatNoMore) {
                                       .speed_m_s = speed_m_s,
                                       .distance_m = 6};
       }
-      const Plan driven = drive(other, robot);
-      if (!drives(driven) || driven.energy.copper_J > cool.energy.copper_J) continue;
+      const Plan driven = tow(other, robot);
+      if (!is_towed(driven) || driven.energy.copper_J > cool.energy.copper_J) continue;
       ++cooler;
       EXPECT_GE(driven.energy.total_J(), cool.lower_bound_J) << speed_m_s << " " << acceleration_m_s2;
     }
@@ -155,9 +155,9 @@ TEST(WindingLimit, LegsAtSpeedGetNoDwell) {
   MissionRequest mission = starts(8, 400, 0);
   mission.objective.minimize = Objective::Minimize::time;
   mission.legs[0].end_speed_m_s = mission.legs[1].start_speed_m_s = 0.3;
-  const Plan hot = drive(mission, tug(400));
-  ASSERT_TRUE(drives(hot)) << hot.message;
-  const Plan refused = drive(mission, tug(25 + 0.9 * (hot.winding->highest_C - 25)));
+  const Plan hot = tow(mission, tug(400));
+  ASSERT_TRUE(is_towed(hot)) << hot.message;
+  const Plan refused = tow(mission, tug(25 + 0.9 * (hot.winding->highest_C - 25)));
   ASSERT_TRUE(refused.infeasibility) << refused.message;
   EXPECT_EQ(refused.infeasibility->reason.constraint, "winding_temperature");
   EXPECT_TRUE(refused.infeasibility->reason.relaxation.contains("dwell_s")) << refused.message;
@@ -170,10 +170,10 @@ TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {
       .profile = MotionProfile::trapezoid, .acceleration_m_s2 = 0.35, .speed_m_s = 0.8, .distance_m = 6};
   MissionRequest mission{.name = "prescribed"};
   for (int k = 0; k < 8; ++k) mission.legs.push_back({.motion = motion, .payload = {400, 400}, .dwell_s = 1});
-  const Plan hot = drive(mission, tug(400));
-  ASSERT_TRUE(drives(hot)) << hot.message;
+  const Plan hot = tow(mission, tug(400));
+  ASSERT_TRUE(is_towed(hot)) << hot.message;
   const Robot robot = tug(25 + 0.75 * (hot.winding->highest_C - 25));
-  const Plan refused = drive(mission, robot);
+  const Plan refused = tow(mission, robot);
   ASSERT_TRUE(refused.infeasibility) << refused.message;
   const Infeasibility& verdict = refused.infeasibility->reason;
   EXPECT_EQ(verdict.constraint, "winding_temperature");
@@ -186,16 +186,16 @@ TEST(WindingLimit, ATooHotMissionIsOfferedADwellAndLessPayload) {
   for (LegRequest& leg : rests.legs) leg.dwell_s = dwell_s;
   for (LegRequest& leg : lighter.legs) leg.payload = {payload_kg, payload_kg};
   EXPECT_LT(payload_kg, 400);
-  EXPECT_TRUE(drives(drive(rests, robot)));
-  EXPECT_TRUE(drives(drive(lighter, robot)));
+  EXPECT_TRUE(is_towed(tow(rests, robot)));
+  EXPECT_TRUE(is_towed(tow(lighter, robot)));
   for (LegRequest& leg : rests.legs) leg.dwell_s = 0.7 * dwell_s;
   for (LegRequest& leg : lighter.legs) leg.payload = {payload_kg + 40, payload_kg + 40};
-  EXPECT_FALSE(drives(drive(rests, robot)));
-  EXPECT_FALSE(drives(drive(lighter, robot)));
+  EXPECT_FALSE(is_towed(tow(rests, robot)));
+  EXPECT_FALSE(is_towed(tow(lighter, robot)));
 }
 
 TEST(WindingAccount, AMotorWithoutThermalHasNone) {
-  EXPECT_FALSE(drive(starts(1, 0), testing::nomad()).winding);
+  EXPECT_FALSE(tow(starts(1, 0), testing::nomad()).winding);
 }
 
 }  // namespace

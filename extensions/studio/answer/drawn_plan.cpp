@@ -8,6 +8,7 @@
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/motion/limit_check.hpp"
+#include "planner/values/leg_state.hpp"
 
 namespace joulepath::studio {
 namespace {
@@ -100,8 +101,10 @@ std::vector<double> drawn_times_s(const Plan& plan, std::size_t count) {
 json drawn_motion(const Plan& plan, const Plant& plant, const std::vector<double>& times_s) {
   const Trajectory t = plan_trajectory_at(plan, plant, times_s);
   json limit = json::array(), use = json::array();
+  std::vector<Plant> plants;
   std::vector<LegMotion> motions;
-  for (const LegPlan& leg : plan.legs) motions.emplace_back(leg, plant);
+  for (const LegPlan& leg : plan.legs) plants.push_back(plant_in(plant, leg.state));
+  for (std::size_t k = 0; k < plants.size(); ++k) motions.emplace_back(plan.legs[k], plants[k]);
   for (std::size_t row = 0; row < t.size(); ++row) {
     const auto leg = static_cast<std::size_t>(t.leg[row]);
     const TightestLimit tight =

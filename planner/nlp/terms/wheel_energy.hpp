@@ -9,7 +9,8 @@ namespace joulepath::nlp {
 /// with sharing: bus.
 ///
 /// The energy from the battery is max(E, eta E) = E + (1 - eta) max(0, -E): the objective contains a variable
-/// z >= 0 per channel with the row E + z >= 0, which is exact.
+/// z >= 0 per channel with the row E + z >= 0, which is exact. Where a planner pays for heat, E holds that
+/// price, too.
 struct WheelEnergy {
   static constexpr std::string_view name = "recovered_energy";
   static constexpr std::size_t rows = 2;
@@ -36,12 +37,21 @@ struct WheelEnergy {
     for (std::size_t q = 0; q < kEnergyPoints; ++q) {
       const Sided<WheelLoad<Real>> load =
           wheel_loads(interval.segment, interval.segment.energy_points[q], interval.at_energy_point(q));
+      const Real left_W = cost_W(interval, load.left, Side::left),
+                 right_W = cost_W(interval, load.right, Side::right);
       if (bus)
-        parts[q] = {half * (load.left.power_W + load.right.power_W), Real(0.0)};
+        parts[q] = {half * (left_W + right_W), Real(0.0)};
       else
-        parts[q] = {half * load.left.power_W, half * load.right.power_W};
+        parts[q] = {half * left_W, half * right_W};
     }
     return parts;
+  }
+
+ private:
+  template <class AnyInterval, class Real = typename AnyInterval::Real>
+  static Real cost_W(const AnyInterval& interval, const WheelLoad<Real>& load, Side side) {
+    const double price_ohm = interval.segment.plant->heat_price_ohm[side];
+    return price_ohm == 0 ? load.power_W : Real(load.power_W + price_ohm * (load.current_A * load.current_A));
   }
 };
 
