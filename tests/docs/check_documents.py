@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks of documents: links and cited files exist, decisions have a status and are cited, no page tells
-of its making, lines of prose end, README and changelog are short, versions agree.
+of its making, lines of prose end, README, changelog and pages are short, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -121,12 +121,22 @@ def long_lines(source):
                 yield f"{name}:{number}: {len(line)} characters, at most {WIDTH}"
 
 
-# What a reader takes in at once: words of the README, lines of the changelog.
-MOST_WORDS, MOST_CHANGES = 600, 40
+# What a reader takes in at once: words of the README, lines of the changelog. What can be kept true: words of all pages.
+MOST_WORDS, MOST_CHANGES, MOST_WORDS_OF_PAGES = 600, 40, 24_000
+NOT_COUNTED = ("docs/references.md", *WRITTEN_BY_COMMANDS)
+
+
+def words_of_pages(source):
+    """Words of docs/*.md; a word has a letter or a digit, bars of tables and signs of formulas are none."""
+    pages = [page for page in source.glob("docs/*.md") if not page.relative_to(source).as_posix().startswith(NOT_COUNTED)]
+    return sum(bool(re.search(r"\w", word)) for page in pages for word in page.read_text().split())
 
 
 def too_long(source):
     words, lines = len((source / "README.md").read_text().split()), len((source / "CHANGELOG.md").read_text().splitlines())
+    pages = words_of_pages(source)
+    if pages > MOST_WORDS_OF_PAGES:
+        yield f"docs/*.md: {pages} words, at most {MOST_WORDS_OF_PAGES}: link instead of repeating, delete what a decision or a result holds"
     if words > MOST_WORDS:
         yield f"README.md: {words} words, at most {MOST_WORDS}: move what is special to a page of docs/"
     if lines > MOST_CHANGES:
