@@ -50,10 +50,6 @@ bool same(const LegState& a, const LegState& b) {
          near(a.resistance_factor.right, b.resistance_factor.right, kSameResistance);
 }
 
-bool is_emptied(const Plan& plan) {
-  return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";
-}
-
 bool may_lack_charge(const std::string& constraint) {
   for (const char* name : {"battery_voltage", "battery_power", "battery_reserve", "deadline", "duration"})
     if (constraint == name) return true;

@@ -39,7 +39,10 @@ Trajectory log_of(const std::vector<MonitorRow>& rows) {
 /// What the monitor says of rows: empty where it believes them.
 std::string refusal(const SoundDrive& drive, const std::vector<MonitorRow>& rows) {
   Monitor monitor(drive.robot, drive.course, {});
-  for (const MonitorRow& row : rows) (void)monitor.add(row);
+  for (const MonitorRow& row : rows) {
+    (void)monitor.add(row);
+    if (monitor.implausible()) break;
+  }
   if (const std::optional<Implausible>& odd = monitor.judge_end()) return odd->channel + ": " + odd->found;
   return monitor.status().rows.used > rows.size() / 2 ? "" : "rows that are late or broken";
 }
