@@ -22,10 +22,11 @@ struct PlanOptions {
   double accuracy{1e-4};
   unsigned seed{1};
   WaySteps steps{};
-  bool baselines{true};     ///< compare with classic profiles
-  bool path_bound{};        ///< bound the energy over all paths
-  unsigned threads{1};      ///< threads for the legs of one mission; the plan does not depend on it
-  SharedAnswers answers{};  ///< cached answers of other missions; the plan does not depend on them
+  bool baselines{true};      ///< compare with classic profiles
+  bool path_bound{};         ///< bound the energy over all paths
+  unsigned threads{1};       ///< threads for the legs of one mission; the plan does not depend on it
+  SharedAnswers answers{};   ///< cached answers of other missions; the plan does not depend on them
+  bool any_price_of_heat{};  ///< whether windings can be kept at all: not at the least price
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 

@@ -72,12 +72,11 @@ namespace {
 
 /// The states that the first plan assumes: cold windings, and no leg has drawn anything; a charger's stop
 /// fills the battery.
-std::vector<LegState> first_states(double price_of_heat, const MissionRequest& mission, const Robot& robot) {
+std::vector<LegState> first_states(const MissionRequest& mission, const Robot& robot) {
   double fraction = mission.start.battery_fraction.value_or(1.0);
   std::vector<LegState> states;
   for (const LegRequest& leg : mission.legs) {
-    states.push_back(
-        {.open_circuit_voltage_V = voltage_at_V(robot, fraction), .price_of_heat = price_of_heat});
+    states.push_back({.open_circuit_voltage_V = voltage_at_V(robot, fraction)});
     const auto station = mission.stations.find(leg.to);
     if (mission.charging && station != mission.stations.end() && station->second.charger_W > 0)
       fraction = std::max(fraction, mission.charging->to_fraction);
@@ -121,14 +120,14 @@ Plan with_state(Plan plan, const std::vector<LegState>& states) {
 struct SettledPlan {
   Plan plan{};
   Plan easiest{};
+  std::vector<LegState> states{};  ///< the last ones
 };
 
 /// Plans anew until the states stay. Where they do not stay soon, each leg keeps the hardest of its states,
 /// so that they can only move one way. A plan that drove too hard may leave too little to the legs behind it:
 /// then the states between its own and those that it leads to are tried.
-SettledPlan settled_at(double price_of_heat, const MissionRequest& mission, const Robot& robot,
-                       const PlanInStates& plan_in) {
-  std::vector<LegState> states = first_states(price_of_heat, mission, robot), before;
+SettledPlan settled_from(std::vector<LegState> states, const Robot& robot, const PlanInStates& plan_in) {
+  std::vector<LegState> before;
   SettledPlan result;
   std::optional<Plan> refused;  ///< a verdict of the accounts, should no later plan stand
   for (int round = 1;; ++round) {
@@ -137,6 +136,7 @@ SettledPlan settled_at(double price_of_heat, const MissionRequest& mission, cons
     if (!is_accounted(plan)) {
       const bool ends = before.empty() || round >= kDriftRounds;
       if (ends) result.plan = refused ? std::move(*refused) : std::move(plan);
+      result.states = states;
       if (ends) return result;
       states = each(between, std::move(states), before);
       continue;
@@ -145,6 +145,7 @@ SettledPlan settled_at(double price_of_heat, const MissionRequest& mission, cons
     if (round > kFreeRounds) next = each(harder, std::move(next), states);
     if (round > kDriftRounds || std::equal(states.begin(), states.end(), next.begin(), same)) {
       result.plan = std::move(plan);
+      result.states = std::move(states);
       return result;
     }
     if (plan.infeasibility) refused = std::move(plan);
@@ -190,16 +191,15 @@ void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
   plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
 }
 
-/// The least price of heat, to kClose, with which a mission keeps its temperatures; nothing where no price
-/// that was tried does.
-std::optional<Plan> cool_plan(const std::function<Plan(double)>& at) {
-  constexpr double kFirstPrice = 0.02, kFactor = 3, kMostPrice = 43.74, kClose = 1.2;
-  if (is_too_hot(at(kMostPrice))) return std::nullopt;
-  double bad = 0, good = kFirstPrice;
+/// The least price of heat, to kClose, or any price, with which a mission keeps its temperatures; nothing
+/// where no price that was tried does.
+std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, bool any_price) {
+  constexpr double kLeastPrice = 0.02, kMostPrice = 45, kFactor = 9, kClose = 1.5;
+  double good = kMostPrice, bad = kLeastPrice;
   Plan cool = at(good);
-  while (!drives_within_limits(cool) && good < kMostPrice) bad = good, good *= kFactor, cool = at(good);
-  if (!drives_within_limits(cool)) return std::nullopt;
-  while (bad > 0 && good > kClose * bad) {
+  for (; !drives_within_limits(cool); cool = at(good))
+    if (is_too_hot(cool) || (good /= kFactor) < kLeastPrice) return std::nullopt;
+  while (!any_price && good > kClose * bad) {
     const double middle = std::sqrt(bad * good);
     Plan between = at(middle);
     if (drives_within_limits(between))
@@ -212,14 +212,19 @@ std::optional<Plan> cool_plan(const std::function<Plan(double)>& at) {
 
 }  // namespace
 
-Plan settled_plan(const MissionRequest& mission, const Robot& robot, double accuracy,
+Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanOptions& options,
                   const PlanInStates& plan_in) {
-  auto [plan, easiest] = settled_at(0, mission, robot, plan_in);
+  auto [plan, easiest, states] = settled_from(first_states(mission, robot), robot, plan_in);
   if (is_too_hot(plan) && mission.objective.minimize != Objective::Minimize::time) {
-    const auto at = [&](double price) { return settled_at(price, mission, robot, plan_in).plan; };
-    if (std::optional<Plan> cool = cool_plan(at)) plan = std::move(*cool);
+    const auto at = [&, warm = states](double price) mutable {
+      for (LegState& state : warm) state.price_of_heat = price;
+      SettledPlan priced = settled_from(std::move(warm), robot, plan_in);
+      warm = std::move(priced.states);
+      return std::move(priced.plan);
+    };
+    if (std::optional<Plan> cool = cool_plan(at, options.any_price_of_heat)) plan = std::move(*cool);
   }
-  bound_by(plan, easiest, accuracy);
+  bound_by(plan, easiest, options.accuracy);
   return std::move(plan);
 }
 

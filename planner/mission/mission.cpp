@@ -245,7 +245,7 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
                      std::optional<double> way_price_W = {}) {
   if (!drifts(world.robot))
     return plan_in_states(mission, world, options, space, plant, {}, known, way_price_W);
-  return settled_plan(mission, world.robot, options.accuracy, [&](const std::vector<LegState>& states) {
+  return settled_plan(mission, world.robot, options, [&](const std::vector<LegState>& states) {
     return plan_in_states(mission, world, options, space, plant, states, known, way_price_W);
   });
 }
@@ -345,13 +345,15 @@ Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const 
 
 namespace {
 
-using PlansMissionIn = std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&)>;
+using PlansMissionIn =
+    std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&, const PlanOptions&)>;
 
-constexpr int kMostTrials = 60;  ///< plans of one verdict
+constexpr int kMostTrials = 30;  ///< plans of one verdict
 
 /// Adds to a verdict what a battery or windings of other states would do: every offer was planned.
 void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionWorld& world,
-                       const PlansMissionIn& planned) {
+                       PlanOptions options, const PlansMissionIn& planned) {
+  options.any_price_of_heat = true;
   const double start_fraction = asked.start.battery_fraction.value_or(1.0);
   int trials = 0;
   const auto plans = [&](const MissionRequest& mission, const Robot& robot) {
@@ -359,7 +361,7 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     MissionWorld other = world;
     other.robot = robot;
     try {
-      return planned(mission, other, make_plant(robot)).status <= SolveStatus::feasible;
+      return planned(mission, other, make_plant(robot), options).status <= SolveStatus::feasible;
     } catch (const ConfigError&) {  // of a leg that no plan reached before
       return false;
     }
@@ -394,11 +396,12 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const Plant plant = make_plant(world.robot);
   const bool visits = !asked.visit.empty() && asked.legs.empty();
   if (!visits && asked.legs.empty()) refuse_empty(asked);
-  const auto planned = [&](const MissionRequest& mission, const MissionWorld& in, const Plant& by) {
-    return (visits ? plan_stops : plan_with_stops)(mission, in, options, space, by, known);
+  const auto planned = [&](const MissionRequest& mission, const MissionWorld& in, const Plant& by,
+                           const PlanOptions& how) {
+    return (visits ? plan_stops : plan_with_stops)(mission, in, how, space, by, known);
   };
-  Plan answer = planned(asked, world, plant);
-  if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, planned);
+  Plan answer = planned(asked, world, plant, options);
+  if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, options, planned);
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),

@@ -100,12 +100,18 @@ inline SegmentJets affine_segment_jets(double ds, const std::array<Sided<AffineP
   return jets;
 }
 
-/// Wheels' powers at the energy points of an affine segment.
+/// x + c y.
+inline Affine sum(const Affine& x, double c, const Affine& y) {
+  return {x.constant + c * y.constant, x.of_a + c * y.of_a, x.of_b + c * y.of_b, x.of_u + c * y.of_u};
+}
+
+/// Wheels' powers at the energy points of an affine segment, with the price of their heat, V i + price i^2.
 inline std::array<Sided<AffinePower>, kEnergyPoints> affine_power(const Segment& segment) {
   std::array<Sided<AffinePower>, kEnergyPoints> power;
   for (std::size_t q = 0; q < kEnergyPoints; ++q)
-    power[q] = map_sides(segment.energy_points[q].wheel, [](Side, const AffineWheel& wheel) {
-      return AffinePower{wheel.voltage_V, wheel.current_A};
+    power[q] = map_sides(segment.energy_points[q].wheel, [&](Side side, const AffineWheel& wheel) {
+      return AffinePower{sum(wheel.voltage_V, segment.plant->heat_price_ohm[side], wheel.current_A),
+                         wheel.current_A};
     });
   return power;
 }
