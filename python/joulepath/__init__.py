@@ -13,6 +13,7 @@ True
 from ._core import version as __version__
 from ._errors import ConfigError, Infeasible, PlanningError
 from ._records import Record
+from .commands import Answer, check, compare, estimate, export, front
 from .diagnosis import Diagnosis, Run, diagnose
 from .energies import Energy, energy
 from .logs import Log
@@ -25,7 +26,7 @@ from .robots import Robot
 from .simulation import Simulation, simulate
 
 __all__ = [
-    "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
+    "Answer", "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
     "PlanningError", "Profile", "Record", "Replan", "Replanner", "Robot", "Run", "Simulation", "__version__",
-    "diagnose", "drives", "energy", "map", "plan", "profile", "simulate",
+    "check", "compare", "diagnose", "drives", "energy", "estimate", "export", "front", "map", "plan", "profile", "simulate",
 ]
