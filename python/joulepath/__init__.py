@@ -13,7 +13,8 @@ True
 from ._core import version as __version__
 from ._errors import ConfigError, Infeasible, PlanningError
 from ._records import Record
-from .commands import Answer, check, compare, estimate, export, front
+from .commands import (Answer, batch, calibrate, check, compare, drift, estimate, experiment, export, front,
+                       monitor, sweep)
 from .diagnosis import Diagnosis, Run, diagnose
 from .energies import Energy, energy
 from .logs import Log
@@ -28,5 +29,6 @@ from .simulation import Simulation, simulate
 __all__ = [
     "Answer", "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
     "PlanningError", "Profile", "Record", "Replan", "Replanner", "Robot", "Run", "Simulation", "__version__",
-    "check", "compare", "diagnose", "drives", "energy", "estimate", "export", "front", "map", "plan", "profile", "simulate",
+    "batch", "calibrate", "check", "compare", "diagnose", "drift", "drives", "energy", "estimate", "experiment", "export",
+    "front", "map", "monitor", "plan", "profile", "simulate", "sweep",
 ]

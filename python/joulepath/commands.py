@@ -27,7 +27,7 @@ from .robots import Robot
 #: A file, a dict with a file's keys, or a robot.
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Robot]
 #: Exit codes that are an answer where the program printed one, beside 0.
-_ANSWERS = {"check": (2,), "drift": (1, 2), "batch": (1,)}
+_ANSWERS = {"check": (2,), "drift": (1, 2), "batch": (1,), "monitor": (1,)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +82,10 @@ def _input(name: str, value: Any, folder: FilePath) -> str:
     if isinstance(value, Mapping):
         (folder / f"{name}.yaml").write_text(text_of(name, _absolute(value, folder)), encoding="utf-8")
         return str(folder / f"{name}.yaml")
+    if isinstance(value, (list, tuple)):
+        lines = "".join(text_of(f"{name}[{k}]", _absolute(item, folder)) + "\n" for k, item in enumerate(value))
+        (folder / f"{name}.jsonl").write_text(lines, encoding="utf-8")
+        return str(folder / f"{name}.jsonl")
     return file_name(name, value)
 
 
@@ -172,3 +176,37 @@ def export(mission: Source | Any, to: str, name: str = "export.json", **options:
     if FilePath(name).name != name:
         raise refused("name", repr(name), "a file's name without a directory")
     return _run("export", {"mission": mission}, {"to": to, **options}, name)
+
+
+def batch(missions: Source | list[Mapping[str, Any]], **options: Any) -> Answer:
+    """Many missions, as ``joulepath batch``: a directory, a file or a list of dicts. ``json`` has each one's outcome; ``code``
+    is 1 where some cannot be read. Raises ConfigError."""
+    return _run("batch", {"missions": missions}, options, ".")
+
+
+def sweep(study: Source, **options: Any) -> Answer:
+    """Many designs of a robot, as ``joulepath sweep``; ``table("sweep.csv")`` has a row for each. Raises ConfigError."""
+    return _run("sweep", {"study": study}, options, ".")
+
+
+def calibrate(dataset: Source, **options: Any) -> Answer:
+    """Constants fitted to runs, as ``joulepath calibrate``; ``files["robot.yaml"]`` is the fitted robot. Raises ConfigError."""
+    return _run("calibrate", {"dataset": dataset}, options, "robot.yaml")
+
+
+def experiment(dataset: Source, **options: Any) -> Answer:
+    """The run that best separates the candidates of a diagnosis, as ``joulepath experiment``: ``files["mission.yaml"]``, none
+    where nothing is left to separate (``messages`` says so). Raises ConfigError."""
+    return _run("experiment", {"dataset": dataset}, options, "mission.yaml", json_too=False)
+
+
+def drift(*days: Source | Any, **options: Any) -> Answer:
+    """Constants that changed since the first day, as ``joulepath drift``: ``code`` is 0 without drift, 1 with it, 2 where runs
+    cannot tell. Raises ConfigError."""
+    return _run("drift", {f"days_{k}": day for k, day in enumerate(days)}, options)
+
+
+def monitor(plan: str | os.PathLike[str], log: Source | Any, robot: Source, **options: Any) -> Answer:
+    """A drive beside its plan, as ``joulepath monitor``; ``plan``: the plan's directory. ``json``: a tuple of events; ``code``
+    is 1 after an alarm. Raises ConfigError."""
+    return _run("monitor", {"plan": plan, "log": log}, {"robot": robot, **options})

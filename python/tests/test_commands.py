@@ -53,6 +53,46 @@ def test_export_of_a_robot_and_save(program, robot, mission):
         answer.save("made")
 
 
+@pytest.fixture
+def starter(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    subprocess.run([program, "init", ".", "-q"], check=True)
+
+
+def test_batch_and_sweep(program, mission):
+    pathlib.Path("missions.jsonl").write_text(json.dumps(mission) + "\n")
+    text = printed(program, "batch", "missions.jsonl", "--nodes", 40, "--out", "batch")
+    answer = jp.batch([mission], nodes=40)
+    assert answer.text == text == jp.batch("missions.jsonl", nodes=40).text
+    assert answer.files["results.jsonl"] == pathlib.Path("batch/results.jsonl").read_bytes()
+    study = {"schema": "joulepath/study/1", "missions": "mission.yaml",
+             "parameters": {"gear": {"key": "robot.motor.gear_ratio", "from": 20, "to": 30, "count": 2}}}
+    pathlib.Path("study.yaml").write_text(json.dumps(study))
+    text = printed(program, "sweep", "study.yaml", "--nodes", 40, "--out", "sweep")
+    answer = jp.sweep("study.yaml", nodes=40)
+    assert answer.text == text
+    assert answer.files["sweep.csv"] == pathlib.Path("sweep/sweep.csv").read_bytes()
+    assert any(column.dtype == float and len(column) == 2 for column in answer.table("sweep.csv").values())
+    assert jp.batch([mission, {**mission, "robot": "none.yaml"}], nodes=40).code == 1
+
+
+def test_calibrate_drift_and_experiment(program, starter):
+    answer = jp.calibrate("dataset.yaml")
+    assert answer.text == printed(program, "calibrate", "dataset.yaml", "--out", "fitted.yaml")
+    assert answer.files["robot.yaml"] == pathlib.Path("fitted.yaml").read_bytes()
+    assert jp.drift("dataset.yaml", "dataset.yaml").text == printed(program, "drift", "dataset.yaml", "dataset.yaml")
+    answer = jp.experiment("dataset.yaml")
+    assert not answer.files and "no candidates to separate" in answer.text + answer.messages
+
+
+def test_monitor(program, starter):
+    jp.plan("mission.yaml", solver="fast").save("made")
+    told = subprocess.run([program, "monitor", "made", "run_01.csv", "--robot", "robot.yaml", "--json"], capture_output=True, text=True)
+    answer = jp.monitor("made", "run_01.csv", "robot.yaml")
+    assert (answer.text, answer.code) == (told.stdout, told.returncode)
+    assert answer.json[0].event == "status"
+
+
 def test_errors_are_those_of_the_package(robot, mission):
     assert jp.check({**mission, "legs": 3}).json[0].ok is False
     with pytest.raises(jp.ConfigError) as caught:
