@@ -13,6 +13,8 @@ True
 from ._core import version as __version__
 from ._errors import ConfigError, Infeasible, PlanningError
 from ._records import Record
+from .commands import (Answer, batch, calibrate, check, compare, drift, estimate, experiment, export, front,
+                       monitor, sweep)
 from .diagnosis import Diagnosis, Run, diagnose
 from .energies import Energy, energy
 from .logs import Log
@@ -25,7 +27,8 @@ from .robots import Robot
 from .simulation import Simulation, simulate
 
 __all__ = [
-    "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
+    "Answer", "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
     "PlanningError", "Profile", "Record", "Replan", "Replanner", "Robot", "Run", "Simulation", "__version__",
-    "diagnose", "drives", "energy", "map", "plan", "profile", "simulate",
+    "batch", "calibrate", "check", "compare", "diagnose", "drift", "drives", "energy", "estimate", "experiment", "export",
+    "front", "map", "monitor", "plan", "profile", "simulate", "sweep",
 ]

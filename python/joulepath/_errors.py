@@ -55,9 +55,10 @@ def named_by(place: Callable[[str, str], str | None]) -> Iterator[None]:
 
 
 class PlanningError(RuntimeError):
-    """The solver failed. ``plan`` is the incomplete plan (None in another process than the planning one)."""
+    """The solver failed. ``plan`` is the incomplete plan (None in another process than the planning
+    one, and of a command)."""
 
-    def __init__(self, message: str, plan: Plan) -> None:
+    def __init__(self, message: str, plan: Plan | None) -> None:
         super().__init__(message)
         self.plan: Plan | None = plan
 

@@ -1,0 +1,117 @@
+"""The commands as functions: the bytes of the program, its errors, and a row of the page for each command."""
+import json
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+import joulepath as jp
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/python.md"
+
+
+def printed(program, *words):
+    return subprocess.run([program, *map(str, words), "--json"], check=True, capture_output=True, text=True).stdout
+
+
+@pytest.fixture
+def mission(robot, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    robot.save("robot.yaml")
+    keys = {"robot": "robot.yaml", "legs": [{"path": {"bezier_m": [[[0, 0], [2, 0], [2, 1], [4, 1]]]}}]}
+    pathlib.Path("mission.yaml").write_text(json.dumps(keys))
+    return keys
+
+
+def test_check_compare_and_front_print_the_program_s_bytes(program, mission):
+    assert jp.check("mission.yaml").text == printed(program, "check", "mission.yaml")
+    for function, name in ((jp.compare, "compare.json"), (jp.front, "front.json")):
+        options = {"nodes": 40, **({"points": 3, "baselines": 0} if function is jp.front else {})}
+        words = [word for key, value in options.items() for word in (f"--{key}", value)]
+        command = function.__name__
+        answer = function("mission.yaml", **options)
+        assert answer.text == printed(program, command, "mission.yaml", *words, "--out", command)
+        assert answer.files[name] == pathlib.Path(command, name).read_bytes()
+
+
+def test_estimate_of_a_frame_is_that_of_its_file(program, robot, mission):
+    log = jp.simulate(jp.plan("mission.yaml", solver="fast"), robot, seed=1)
+    log.save("log.csv")
+    answer = jp.estimate("log.csv", robot=robot)
+    assert answer.text == printed(program, "estimate", "log.csv", "--robot", "robot.yaml", "--out", "estimate")
+    assert jp.estimate(log, robot=robot).text == answer.text
+
+
+def test_export_of_a_robot_and_save(program, robot, mission):
+    printed(program, "export", "robot.yaml", "--to", "mjcf", "--out", "one.xml")
+    answer = jp.export(robot, "mjcf", "robot.xml")
+    assert answer.files["robot.xml"] == pathlib.Path("one.xml").read_bytes()
+    answer.save("made")
+    assert pathlib.Path("made/robot.xml").read_bytes() == answer.files["robot.xml"]
+    with pytest.raises(jp.ConfigError, match="a file that exists"):
+        answer.save("made")
+
+
+@pytest.fixture
+def starter(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    subprocess.run([program, "init", ".", "-q"], check=True)
+
+
+def test_batch_and_sweep(program, mission):
+    pathlib.Path("missions.jsonl").write_text(json.dumps(mission) + "\n")
+    text = printed(program, "batch", "missions.jsonl", "--nodes", 40, "--out", "batch")
+    answer = jp.batch([mission], nodes=40)
+    assert answer.text == text == jp.batch("missions.jsonl", nodes=40).text
+    assert answer.files["results.jsonl"] == pathlib.Path("batch/results.jsonl").read_bytes()
+    study = {"schema": "joulepath/study/1", "missions": "mission.yaml",
+             "parameters": {"gear": {"key": "robot.motor.gear_ratio", "from": 20, "to": 30, "count": 2}}}
+    pathlib.Path("study.yaml").write_text(json.dumps(study))
+    text = printed(program, "sweep", "study.yaml", "--nodes", 40, "--out", "sweep")
+    answer = jp.sweep("study.yaml", nodes=40)
+    assert answer.text == text
+    assert answer.files["sweep.csv"] == pathlib.Path("sweep/sweep.csv").read_bytes()
+    assert any(column.dtype == float and len(column) == 2 for column in answer.table("sweep.csv").values())
+    assert jp.batch([mission, {**mission, "robot": "none.yaml"}], nodes=40).code == 1
+
+
+def test_calibrate_drift_and_experiment(program, starter):
+    answer = jp.calibrate("dataset.yaml")
+    assert answer.text == printed(program, "calibrate", "dataset.yaml", "--out", "fitted.yaml")
+    assert answer.files["robot.yaml"] == pathlib.Path("fitted.yaml").read_bytes()
+    assert jp.drift("dataset.yaml", "dataset.yaml").text == printed(program, "drift", "dataset.yaml", "dataset.yaml")
+    answer = jp.experiment("dataset.yaml")
+    assert not answer.files and "no candidates to separate" in answer.text + answer.messages
+
+
+def test_monitor(program, starter):
+    jp.plan("mission.yaml", solver="fast").save("made")
+    told = subprocess.run([program, "monitor", "made", "run_01.csv", "--robot", "robot.yaml", "--json"], capture_output=True, text=True)
+    answer = jp.monitor("made", "run_01.csv", "robot.yaml")
+    assert (answer.text, answer.code) == (told.stdout, told.returncode)
+    assert answer.json[0].event == "status"
+
+
+def test_errors_are_those_of_the_package(robot, mission):
+    assert jp.check({**mission, "legs": 3}).json[0].ok is False
+    with pytest.raises(jp.ConfigError) as caught:
+        jp.compare({**mission, "robot": robot, "legs": 3})
+    assert caught.value.key == "legs" and caught.value.found
+    mission["legs"][0]["duration_s"] = 0.1
+    with pytest.raises(jp.PlanningError):
+        jp.compare({**mission, "robot": robot}, nodes=40)
+    with pytest.raises(jp.ConfigError, match="out"):
+        jp.front("mission.yaml", out="x")
+
+
+def test_the_page_has_a_row_for_each_command(program):
+    rows = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE))
+    told = subprocess.run([program, "help"], check=True, capture_output=True, text=True).stdout
+    assert sorted(rows) == sorted(re.findall(r"^  ([a-z]+) {3,}", told, re.MULTILINE))
+    tests = "".join(file.read_text(encoding="utf-8") for file in pathlib.Path(__file__).parent.glob("test_*.py"))
+    for function in re.findall(r"`jp\.([\w.]+)`", " ".join(rows.values())):
+        thing = jp
+        for part in function.split("."):
+            thing = getattr(thing, part)
+        assert callable(thing) and f"jp.{function}" in tests, function
