@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path as FilePath
+from typing import Mapping
 
 from ._errors import refused
 
 
-def save(directory: str | os.PathLike[str], contents: dict[str, str | None], force: bool) -> FilePath:
+def save(directory: str | os.PathLike[str], contents: Mapping[str, str | bytes | None], force: bool) -> FilePath:
     """Writes files into a directory. A name without content is a file of older results, which is removed.
 
     Raises ConfigError where one of them exists and ``force`` is not given.
@@ -22,7 +23,7 @@ def save(directory: str | os.PathLike[str], contents: dict[str, str | None], for
     with tempfile.TemporaryDirectory(dir=target, prefix=".part-") as part:
         for name, content in contents.items():
             if content is not None:
-                (FilePath(part) / name).write_text(content, encoding="utf-8", newline="")
+                (FilePath(part) / name).write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
         for name, content in contents.items():
             if content is None:
                 (target / name).unlink(missing_ok=True)

@@ -57,8 +57,8 @@ class Answer:
         return {key: _column([row[k] for row in rows]) for k, key in enumerate(header)}
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes the command's text files. Raises ConfigError where one exists, unless ``force`` is given."""
-        return save(directory, {name: content.decode() for name, content in self.files.items()}, force)
+        """Writes the command's files. Raises ConfigError where one exists, unless ``force`` is given."""
+        return save(directory, self.files, force)
 
 
 def _column(cells: list[str]) -> NDArray[Any]:

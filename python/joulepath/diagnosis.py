@@ -8,7 +8,7 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import Any, Iterable, Mapping, Sequence, Union
+from typing import Any, Iterable, Mapping, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ from .robots import Robot, robot_of
 
 #: A file, or columns by name: a pandas.DataFrame, a Log, a dict of arrays.
 LogLike = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
+RobotLike = Union[Robot, str, "os.PathLike[str]", Mapping[str, Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,15 +119,24 @@ class Diagnosis(Value):
         return "\n".join([self.json.sentence, *(f"{kind}: {text}" for kind, texts in told.items() for text in texts)])
 
 
-def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
-             logs: str | os.PathLike[str] | Iterable[LogLike | Run], *,
-             columns: Mapping[str, Any] | None = None, without: Iterable[str] = ()) -> Diagnosis:
+@overload
+def diagnose(robot: RobotLike | None, logs: str | os.PathLike[str] | LogLike | Run | Iterable[LogLike | Run], *, columns: Mapping[str, Any] | None = None,
+             without: Iterable[str] = ()) -> Diagnosis: ...
+
+
+@overload
+def diagnose(logs: str | os.PathLike[str] | LogLike | Run | Iterable[LogLike | Run], *, robot: RobotLike | None = None, columns: Mapping[str, Any] | None = None,
+             without: Iterable[str] = ()) -> Diagnosis: ...
+
+
+def diagnose(*given: Any, robot: Any = None, logs: Any = None, columns: Mapping[str, Any] | None = None,
+             without: Iterable[str] = ()) -> Diagnosis:
     """Locates the gap between model and logs, names its cause, measures how much a correction shrinks it.
 
-    ``logs``: a dataset file, or a list of logs: file names, data frames, dicts of arrays, Logs, or a Run of one of them
-    with its circumstances. Columns are those of the run log format, in SI units, of one length; NaN and None are missing
-    values. ``columns`` maps other names and units as in a dataset file; a bag's other channels are read as ``joulepath check``
-    proposes them. ``without``: effects taken out of the catalog.
+    ``diagnose(robot, logs)`` or ``diagnose(logs, robot=robot)``. ``logs``: a dataset file (YAML), a log, or a list of logs: file
+    names, data frames, dicts of arrays, Logs, or a Run of one of them with its circumstances. Columns are those of the run log
+    format, in SI units, of one length; NaN and None are missing values. ``columns`` maps other names and units as in a dataset
+    file; a bag's other channels are read as ``joulepath check`` proposes them. ``without``: effects taken out of the catalog.
     ``robot`` may be None with a dataset file, which names its own. Raises ConfigError, for a value that is no number with
     its column and row.
 
@@ -134,13 +144,22 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
     Traceback (most recent call last):
     joulepath._errors.ConfigError: logs[0].linear_speed_m_s[1]: found 'fast' of type str, accepted: a finite number, or NaN where a value is missing
     """
+    if len(given) > 2 or (len(given) == 2 and (robot is not None or logs is not None)):
+        raise TypeError("diagnose() takes a robot and logs, each once")
+    if len(given) == 2:
+        robot, logs = given
+    elif given and logs is None:
+        logs = given[0]
+    elif given:
+        robot = given[0]
     left_out = [without] if isinstance(without, str) else _words("without", without)
+    if isinstance(logs, Run) or is_frame(logs) or _is_file(logs, (".csv", ".mcap", ".db3")):
+        logs = [logs]
     if isinstance(logs, (str, os.PathLike)):
         value = None if robot is None else robot_of(robot)._value
         return Diagnosis(_core.diagnose_file(file_name("logs", logs), value, left_out))
-    if isinstance(logs, Run) or is_frame(logs) or not isinstance(logs, Iterable):
-        raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, or a list of logs",
-                      "put it into a list: [log]" if isinstance(logs, Run) or is_frame(logs) else "")
+    if not isinstance(logs, Iterable):
+        raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, a log, or a list of logs")
     if robot is None:
         raise refused("robot", "None", "a Robot", "only a dataset file names its robot")
     if columns is not None and not isinstance(columns, Mapping):
@@ -159,6 +178,10 @@ def _place(frames: Mapping[str, str], file: str, key: str) -> str | None:
     if file in frames:
         return frames[file] + (f".{key}" if key else "")
     return re.sub(r"[.]file$", "", re.sub(r"^runs\b", "logs", key)) or "logs" if file == "logs" else None
+
+
+def _is_file(value: Any, ends: tuple[str, ...]) -> bool:
+    return isinstance(value, (str, os.PathLike)) and str(os.fspath(value)).endswith(ends)
 
 
 def _words(name: str, words: Iterable[str]) -> list[str]:

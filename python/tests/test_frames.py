@@ -195,3 +195,11 @@ def test_a_diagnosis_tells_what_its_file_tells(robot, log):
 def test_runs_of_frames_are_values(log):
     run = jp.Run(log)
     assert run == run and run != jp.Run(log) and len({run, jp.Run(log)}) == 2
+
+
+def test_one_log_or_many_with_the_robot_in_either_place(robot, log):
+    whole = jp.diagnose(robot, [log]).json.to_dict()
+    for found in (jp.diagnose(log, robot=robot), jp.diagnose([log], robot=robot), jp.diagnose(robot, jp.Run(log)), jp.diagnose(robot=robot, logs=log)):
+        assert found.json.to_dict() == whole
+    with pytest.raises(TypeError, match="each once"):
+        jp.diagnose(robot, [log], robot=robot)
