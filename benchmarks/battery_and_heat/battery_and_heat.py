@@ -15,7 +15,7 @@ import numpy as np
 from joulepath.simulators.mujoco import predict, read_log
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CURVE = [(0.0, 41.0), (0.1, 46.0), (0.5, 50.5), (0.9, 53.5), (1.0, 56.0)]  # 16 cells of LiFePO4, rounded
+CURVE = [(0.0, 26.0), (0.1, 29.0), (0.5, 32.0), (0.9, 33.5), (1.0, 35.0)]  # 10 cells of LiFePO4, rounded: few for the motors
 BATTERY_OHM = 0.25  # an aged battery with its cables
 THERMAL = {"resistance_K_W": 1.3, "capacity_J_K": 280, "max_winding_C": 120, "ambient_C": 30}
 STEP_S = 0.02

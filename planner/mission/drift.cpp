@@ -214,9 +214,10 @@ std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, bool any_pr
 
 Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanOptions& options,
                   const PlanInStates& plan_in) {
-  auto [plan, easiest, states] = settled_from(first_states(mission, robot), robot, plan_in);
+  SettledPlan settled = settled_from(first_states(mission, robot), robot, plan_in);
+  Plan plan = std::move(settled.plan);
   if (is_too_hot(plan) && mission.objective.minimize != Objective::Minimize::time) {
-    const auto at = [&, warm = states](double price) mutable {
+    const auto at = [&, warm = settled.states](double price) mutable {
       for (LegState& state : warm) state.price_of_heat = price;
       SettledPlan priced = settled_from(std::move(warm), robot, plan_in);
       warm = std::move(priced.states);
@@ -224,8 +225,8 @@ Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanO
     };
     if (std::optional<Plan> cool = cool_plan(at, options.any_price_of_heat)) plan = std::move(*cool);
   }
-  bound_by(plan, easiest, options.accuracy);
-  return std::move(plan);
+  bound_by(plan, settled.easiest, options.accuracy);
+  return plan;
 }
 
 void offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans) {
