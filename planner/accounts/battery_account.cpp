@@ -172,6 +172,10 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   return account;
 }
 
+double least_fraction(const BatteryAccount& account) {
+  return *std::min_element(account.least_fraction_on_leg.begin(), account.least_fraction_on_leg.end());
+}
+
 namespace {
 
 /// The state of charge at the start, or the capacity, with which a plan keeps the reserve; nothing where
@@ -179,8 +183,7 @@ namespace {
 std::map<std::string, double> enough_charge(const BatteryAccount& account, const Battery& battery) {
   constexpr double kRounding = 1e-9;
   if (!battery.open_circuit_curve.empty()) return {};  // then it does: offer_charge() plans anew
-  const double lowest =
-      *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
+  const double lowest = least_fraction(account);
   const double start = account.start_fraction + (battery.reserve_fraction - lowest) * (1 + kRounding);
   if (start <= 1) return {{"battery_fraction", start}};
   const double usable = account.start_fraction - battery.reserve_fraction;
@@ -206,7 +209,7 @@ std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& po
 
 namespace {
 
-/// The largest resistance below `fails_ohm` with which the mission is planned, to a tenth, from a guess on;
+/// The largest resistance below the robot's with which the mission is planned, to a tenth, from a guess on;
 /// nothing where a 256th of that is not enough.
 std::optional<double> planned_resistance_ohm(double guess_ohm, const Robot& robot, const PlansBy& plans) {
   constexpr int kHalvings = 8;
@@ -298,14 +301,13 @@ std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& pl
   if (!plan.battery || !plan.battery->fails_on_leg) return std::nullopt;
   const BatteryAccount& account = *plan.battery;
   const Battery& battery = plant.robot.battery;
-  const double lowest =
-      *std::min_element(account.least_fraction_on_leg.begin(), account.least_fraction_on_leg.end());
   const Pose& pose = plan.legs[*account.fails_on_leg].start_pose;
   return Infeasibility{
       .constraint = "battery_reserve",
       .x_m = pose.x_m,
       .y_m = pose.y_m,
-      .amount = energy_share_between(battery, lowest, battery.reserve_fraction) * battery.capacity_Wh,
+      .amount = energy_share_between(battery, least_fraction(account), battery.reserve_fraction) *
+                battery.capacity_Wh,
       .unit = "Wh",
       .relaxation = enough_charge(account, battery),
       .message = "the battery falls below its reserve on the way"};

@@ -17,6 +17,9 @@ namespace joulepath {
                                                             double start_fraction,
                                                             double charge_to_fraction = 1.0);
 
+/// The least state of charge on all legs of a mission, which has one.
+[[nodiscard]] double least_fraction(const BatteryAccount& account);
+
 /// The verdict where the state of charge falls below the reserve.
 [[nodiscard]] std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant);
 

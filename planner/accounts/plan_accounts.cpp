@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "model/workers.hpp"
+#include "planner/accounts/stretch_account.hpp"
 #include "planner/baselines/baseline.hpp"
 #include "planner/baselines/comparison.hpp"
 
@@ -80,7 +81,7 @@ double saving_percent(double energy_J, double baseline_J) {
 }
 
 double path_gap_percent(const PathBound& bound, double energy_J) {
-  return 100 * (energy_J - bound.energy_J.value_or(std::nan(""))) / std::max(1e-9, std::abs(energy_J));
+  return gap_percent(energy_J, bound.energy_J.value_or(std::nan("")));
 }
 
 namespace {
@@ -147,9 +148,8 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
       if (plan.solver.empty()) plan.solver = stretch.summary.solver;
   }
   const double energy_J = plan.energy.total_J();
-  plan.gap_percent = std::isnan(plan.lower_bound_J)
-                         ? slowest_percent
-                         : 100 * (energy_J - plan.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+  plan.gap_percent =
+      std::isnan(plan.lower_bound_J) ? slowest_percent : gap_percent(energy_J, plan.lower_bound_J);
   if (!std::isfinite(energy_J)) {
     plan.status = SolveStatus::failed;
     plan.message = "the energy is not a number";

@@ -79,13 +79,16 @@ void account_for(StretchPlan& stretch, const UncertainPlant& plant, const Shared
   stretch.sigma_shift_J = std::move(account.sigma_shift_J);
 }
 
+double gap_percent(double energy_J, double bound_J) {
+  return 100 * (energy_J - bound_J) / std::max(1e-9, std::abs(energy_J));
+}
+
 void bound_wait(StretchPlan& stretch, double wait_s, double price_W) {
   const double standby_W = stretch.request.plant.robot.power.standby_W;
   SolveSummary& summary = stretch.summary;
   if (wait_s == 0 || std::isnan(summary.lower_bound_J)) return;
   summary.lower_bound_J += (standby_W - std::max(0.0, price_W + standby_W)) * wait_s;
-  const double energy_J = stretch.energy.total_J();
-  summary.gap_percent = 100 * (energy_J - summary.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+  summary.gap_percent = gap_percent(stretch.energy.total_J(), summary.lower_bound_J);
 }
 
 }  // namespace joulepath

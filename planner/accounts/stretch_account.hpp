@@ -18,6 +18,9 @@ struct UncertainPlant {
 /// change by each uncertain constant. `request` and `profile` must be set.
 void account_for(StretchPlan& stretch, const UncertainPlant& plant, const SharedAnswers& answers);
 
+/// How far (%) an energy may be above the least one, by a lower bound (J).
+[[nodiscard]] double gap_percent(double energy_J, double bound_J);
+
 /// Makes the bound and the gap of an accounted stretch those of its drive and of a wait (s) at its end, for
 /// the price (W) of a second beyond standby. A slower drive that uses the waiting time may save that price.
 void bound_wait(StretchPlan& stretch, double wait_s, double price_W);

@@ -12,6 +12,8 @@
 namespace joulepath {
 namespace {
 
+constexpr const char* kWindingTemperature = "winding_temperature";
+
 /// One winding along a leg.
 class Winding {
  public:
@@ -143,12 +145,16 @@ std::optional<Infeasibility> winding_too_hot(const Plan& plan) {
   text << "the " << side_name(account.side) << " motor's winding reaches " << account.highest_C << " C, "
        << account.above_limit_K << " K above max_winding_C; the limit is passed on leg "
        << *account.fails_on_leg << ", " << account.fails_at_s << " s after the mission's start";
-  return Infeasibility{.constraint = "winding_temperature",
+  return Infeasibility{.constraint = kWindingTemperature,
                        .x_m = pose.x_m,
                        .y_m = pose.y_m,
                        .amount = account.above_limit_K,
                        .unit = "K",
                        .message = text.str()};
+}
+
+bool is_too_hot(const Plan& plan) {
+  return plan.infeasibility && plan.infeasibility->reason.constraint == kWindingTemperature;
 }
 
 }  // namespace joulepath

@@ -12,4 +12,7 @@ namespace joulepath {
 /// The verdict where a winding becomes hotter than its `max_winding_C`.
 [[nodiscard]] std::optional<Infeasibility> winding_too_hot(const Plan& plan);
 
+/// Whether this is the verdict on a plan.
+[[nodiscard]] bool is_too_hot(const Plan& plan);
+
 }  // namespace joulepath

@@ -7,15 +7,14 @@
 
 #include "model/battery_charge.hpp"
 #include "model/winding.hpp"
-#include "planner/accounts/battery_account.hpp"
-#include "planner/values/verdict_text.hpp"
+#include "planner/accounts/stretch_account.hpp"
+#include "planner/accounts/winding_account.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr int kDriftRounds = 8, kFreeRounds = 4;
 constexpr double kSameVoltage = 1e-5, kSameResistance = 5e-4;  ///< relative
-constexpr int kHundred = 100;
 
 /// Open-circuit voltage (V) of a state; none where it is constant.
 double voltage_at_V(const Robot& robot, double fraction) {
@@ -48,12 +47,6 @@ bool same(const LegState& a, const LegState& b) {
   return near(a.open_circuit_voltage_V, b.open_circuit_voltage_V, kSameVoltage) &&
          near(a.resistance_factor.left, b.resistance_factor.left, kSameResistance) &&
          near(a.resistance_factor.right, b.resistance_factor.right, kSameResistance);
-}
-
-bool may_lack_charge(const std::string& constraint) {
-  for (const char* name : {"battery_voltage", "battery_power", "battery_reserve", "deadline", "duration"})
-    if (constraint == name) return true;
-  return false;
 }
 
 }  // namespace
@@ -155,10 +148,6 @@ SettledPlan settled_from(std::vector<LegState> states, const Robot& robot, const
 
 bool drives_within_limits(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
-bool is_too_hot(const Plan& plan) {
-  return plan.infeasibility && plan.infeasibility->reason.constraint == "winding_temperature";
-}
-
 /// The bound of a leg follows from that of the same path in easier states, at whatever price of time mu:
 /// E(T) >= bound(T0) + mu (T0 - T). Nothing where the paths differ, or where the bound is one of time.
 double bound_from(const LegPlan& easiest, const LegPlan& leg) {
@@ -179,15 +168,13 @@ void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
     const double energy_J = leg.energy.total_J();
     leg.lower_bound_J = bound_from(easiest.legs.at(k), leg);
     if (leg.lower_bound_J > energy_J) leg.lower_bound_J = energy_J;  // rounding
-    if (!std::isnan(leg.lower_bound_J))
-      leg.gap_percent = 100 * (energy_J - leg.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+    if (!std::isnan(leg.lower_bound_J)) leg.gap_percent = gap_percent(energy_J, leg.lower_bound_J);
     bound_J += leg.lower_bound_J;
   }
-  const double energy_J = plan.energy.total_J();
   plan.lower_bound_J = bound_J;
   plan.gap_percent = std::isnan(bound_J)
                          ? 100 * (1 - (1 - 0.01 * easiest.gap_percent) * easiest.duration_s / plan.duration_s)
-                         : 100 * (energy_J - bound_J) / std::max(1e-9, std::abs(energy_J));
+                         : gap_percent(plan.energy.total_J(), bound_J);
   plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
 }
 
@@ -227,113 +214,6 @@ Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanO
   }
   bound_by(plan, settled.easiest, options.accuracy);
   return plan;
-}
-
-void offer_charge(Plan& plan, const Robot& robot, double start_fraction, const PlansWithFraction& plans) {
-  if (robot.battery.open_circuit_curve.empty() || !plan.infeasibility || start_fraction >= 1) return;
-  Infeasibility& verdict = plan.infeasibility->reason;
-  if (!may_lack_charge(verdict.constraint) || !plans(1.0)) return;
-  int bad = static_cast<int>(std::floor(start_fraction * kHundred)), good = kHundred;
-  while (good > bad + 1) {
-    const int middle = (good + bad) / 2;
-    (plans(static_cast<double>(middle) / kHundred) ? good : bad) = middle;
-  }
-  const std::string told = sentence(verdict);
-  if (verdict.constraint.starts_with("battery_")) verdict.relaxation.clear();
-  verdict.relaxation["battery_fraction"] = static_cast<double>(good) / kHundred;
-  tell_anew(plan, told);
-}
-
-void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& plans) {
-  constexpr int kTrials = 12;
-  constexpr double kMore = 1.02, kRounding = 1e-6;
-  if (robot.battery.open_circuit_curve.empty() || !plan.infeasibility || !plan.battery) return;
-  Infeasibility& verdict = plan.infeasibility->reason;
-  if (verdict.constraint != "battery_reserve" || !verdict.relaxation.empty()) return;
-  const BatteryAccount& account = *plan.battery;
-  const double lowest =
-      *std::min_element(account.least_fraction_on_leg.begin(), account.least_fraction_on_leg.end());
-  const double usable =
-      energy_share_between(robot.battery, robot.battery.reserve_fraction, account.start_fraction);
-  if (!(usable > 0)) return;
-  const double more = energy_share_between(robot.battery, lowest, account.start_fraction) / usable;
-  double capacity_Wh = robot.battery.capacity_Wh * std::max(1.0, more) * (1 + kRounding);
-  for (int trial = 0; trial < kTrials; ++trial, capacity_Wh *= kMore)
-    if (plans(capacity_Wh)) {
-      verdict.relaxation["capacity_Wh"] = capacity_Wh;
-      return;
-    }
-}
-
-namespace {
-
-MissionRequest with_dwell(MissionRequest mission, double dwell_s) {
-  for (LegRequest& leg : mission.legs)
-    if (leg.end_speed_m_s == 0) leg.dwell_s = std::max(leg.dwell_s, dwell_s);
-  for (VisitRequest& visit : mission.visit) visit.dwell_s = std::max(visit.dwell_s, dwell_s);
-  return mission;
-}
-
-MissionRequest with_payload(MissionRequest mission, double share) {
-  for (LegRequest& leg : mission.legs) leg.payload.from_kg *= share, leg.payload.to_kg *= share;
-  for (VisitRequest& visit : mission.visit) visit.payload_kg *= share;
-  return mission;
-}
-
-/// The least whole number in (low, high] that works, where high does and larger ones do as well.
-int least_that_works(int low, int high, const std::function<bool(int)>& works) {
-  constexpr double kClose = 1.1;
-  while (high > low + 1 && high > kClose * low) {
-    const int middle = (low + high) / 2;
-    (works(middle) ? high : low) = middle;
-  }
-  return high;
-}
-
-/// Seconds at every stop with which a mission is planned; 0: none that was tried.
-int enough_dwell_s(const MissionRequest& mission, const PlansMission& plans) {
-  constexpr int kFirst_s = 4, kMost_s = 4096;
-  const auto works = [&](int dwell_s) { return plans(with_dwell(mission, dwell_s)); };
-  for (int dwell_s = kFirst_s; dwell_s <= kMost_s; dwell_s *= 4)
-    if (works(dwell_s)) return least_that_works(dwell_s == kFirst_s ? 0 : dwell_s / 4, dwell_s, works);
-  return 0;
-}
-
-/// Percent of every payload that must go; 0: none, or too little even without payload.
-int enough_unloaded_percent(const MissionRequest& mission, const PlansMission& plans) {
-  constexpr int kStep = 5;
-  const auto works = [&](int steps) { return plans(with_payload(mission, 1 - 0.01 * kStep * steps)); };
-  if (!works(kHundred / kStep)) return 0;
-  return kStep * least_that_works(0, kHundred / kStep, works);
-}
-
-double greatest_payload_kg(const MissionRequest& mission) {
-  double most_kg = 0;
-  for (const LegRequest& leg : mission.legs)
-    most_kg = std::max({most_kg, leg.payload.from_kg, leg.payload.to_kg});
-  for (const VisitRequest& visit : mission.visit) most_kg = std::max(most_kg, visit.payload_kg);
-  return most_kg;
-}
-
-}  // namespace
-
-void offer_cooling(Plan& plan, const MissionRequest& mission, const PlansMission& plans) {
-  if (!is_too_hot(plan)) return;
-  Infeasibility& verdict = plan.infeasibility->reason;
-  std::string offers;
-  if (const int dwell_s = enough_dwell_s(mission, plans); dwell_s > 0) {
-    verdict.relaxation["dwell_s"] = dwell_s;
-    offers = "a dwell of " + std::to_string(dwell_s) + " s at every stop";
-  }
-  const double payload_kg = greatest_payload_kg(mission);
-  if (payload_kg > 0)
-    if (const int percent = enough_unloaded_percent(mission, plans); percent > 0) {
-      verdict.relaxation["payload_kg"] = payload_kg * (1 - 0.01 * percent);
-      offers += (offers.empty() ? "" : ", or ") + std::to_string(percent) + " % less of every payload";
-    }
-  verdict.message +=
-      offers.empty() ? "; neither a dwell nor less payload that was tried is enough" : "; enough: " + offers;
-  plan.message = verdict.message;
 }
 
 }  // namespace joulepath

@@ -15,6 +15,7 @@
 #include "planner/mission/charging.hpp"
 #include "planner/mission/drift.hpp"
 #include "planner/mission/mission_time.hpp"
+#include "planner/mission/state_offers.hpp"
 #include "planner/mission/visit_order.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/holding_limit.hpp"
@@ -47,9 +48,7 @@ double wait_of(const std::vector<ProfileResult>& results, double duration_s) {
 /// is recovered makes the priced energy no greater than J + price Q.
 void take_price_out(StretchPlan& stretch, double price_of_heat) {
   stretch.summary.lower_bound_J -= price_of_heat * stretch.energy.copper_J;
-  const double energy_J = stretch.energy.total_J();
-  stretch.summary.gap_percent =
-      100 * (energy_J - stretch.summary.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
+  stretch.summary.gap_percent = gap_percent(stretch.energy.total_J(), stretch.summary.lower_bound_J);
 }
 
 /// Replays and accounts for a leg's profiles.
@@ -340,10 +339,6 @@ Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const 
     return plan_with_stops(legs, world, options, space, plant, known);
   });
 }
-
-}  // namespace
-
-namespace {
 
 using PlansMissionIn =
     std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&, const PlanOptions&)>;
