@@ -45,6 +45,7 @@ struct LimitRow {
   bool by_payload{true};           ///< rows of `limits: by_payload` may change it
   bool may_be_zero{};              ///< a robot with a limit of zero can still be of use
   bool per_wheel{};                ///< `value` depends on the side
+  bool of_forces{};  ///< its use depends on the plant's constants, and not on the tracked motion alone
   /// What the limit bounds, at a state; the use of the limit is |value| / limit. Null where the limit does
   /// not concern the motion.
   double (*value)(const State& state, Side side){};
@@ -113,6 +114,7 @@ inline constexpr std::array kLimitRows{
         .meaning = "wheel force over normal load",
         .field = &Limits::traction_coefficient,
         .per_wheel = true,
+        .of_forces = true,
         .value = [](const State& x, Side side) { return x.wheels[side].contact_force_N / x.normal_load_N; }},
     LimitRow<State>{.key = "motor_power_W",
                     .name = "motor_power",
@@ -120,12 +122,14 @@ inline constexpr std::array kLimitRows{
                     .meaning = "electrical, per motor",
                     .field = &Limits::motor_power_W,
                     .per_wheel = true,
+                    .of_forces = true,
                     .value = [](const State& x, Side side) { return x.wheels[side].power_W; }},
     LimitRow<State>{.key = "battery_power_W",
                     .name = "battery_power",
                     .unit = "W",
                     .meaning = "at the battery's terminals, standby included",
                     .field = &Limits::battery_power_W,
+                    .of_forces = true,
                     .value = [](const State& x, Side) { return std::max(0.0, x.battery_power_W); }},
     LimitRow<State>{.key = "reverse_speed_m_s",
                     .name = "reverse_speed",
@@ -147,6 +151,7 @@ inline constexpr std::array kLimitRows{
                     .rating = &State::Motor::max_current_A,
                     .by_payload = false,
                     .per_wheel = true,
+                    .of_forces = true,
                     .value = [](const State& x, Side side) { return x.wheels[side].current_A; }},
     LimitRow<State>{.key = "max_voltage_V",
                     .name = "motor_voltage",
@@ -155,6 +160,7 @@ inline constexpr std::array kLimitRows{
                     .rating = &State::Motor::max_voltage_V,
                     .by_payload = false,
                     .per_wheel = true,
+                    .of_forces = true,
                     .value = [](const State& x, Side side) { return x.wheels[side].voltage_V; }},
     LimitRow<State>{.key = "battery_voltage_V",
                     .name = "battery_voltage",
@@ -164,6 +170,7 @@ inline constexpr std::array kLimitRows{
                     .in_limits = false,
                     .by_payload = false,
                     .per_wheel = true,
+                    .of_forces = true,
                     .value = [](const State& x,
                                 Side side) { return std::abs(x.wheels[side].voltage_V) + x.battery_sag_V; }},
     LimitRow<State>{.key = "charge_power_W",
@@ -174,6 +181,7 @@ inline constexpr std::array kLimitRows{
                     .in_limits = false,
                     .by_payload = false,
                     .may_be_zero = true,
+                    .of_forces = true,
                     .value = [](const State& x, Side) { return std::max(0.0, -x.battery_power_W); }},
 };
 

@@ -47,6 +47,7 @@ class PlanCommand : public Command {
         .one_of({"ipopt", "fast"})
         .shows_default();
     add_plan_options(line, options_);
+    add_confidence(line, confidence_);
     line.option("--accuracy", options_.accuracy, "relative energy accuracy that ends grid refinement")
         .between(1e-7, 1e-1)
         .shows_default();
@@ -70,6 +71,7 @@ class PlanCommand : public Command {
                         common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
     MissionRequest mission = read_told_source(source_, reading, common_.quiet);
+    if (confidence_) mission.objective.confidence = confidence_;
     MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);
@@ -118,6 +120,7 @@ class PlanCommand : public Command {
   std::string solver_{"ipopt"};
   std::string cache_{};
   std::vector<std::string> without_{};
+  std::optional<double> confidence_{};
   PlanOptions options_{.path_bound = true};
   CommonOptions common_{};
 };

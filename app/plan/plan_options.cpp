@@ -13,6 +13,13 @@ void add_plan_options(CommandLine& line, PlanOptions& options, const std::string
   line.option("--seed", options.seed, "seed of the path search").shows_default();
 }
 
+void add_confidence(CommandLine& line, std::optional<double>& confidence) {
+  line.option("--confidence", confidence,
+              "probability with which deadlines, battery reserve and limits of motors and tires are kept "
+              "together, by the robot file's uncertainty")
+      .between(kLeastConfidence, kGreatestConfidence);
+}
+
 void add_mission_source(CommandLine& line, MissionSource& source, bool with_time) {
   std::string others;
   for (const MissionDocument& document : registry().mission_documents)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "planner/legs/stretch.hpp"
@@ -12,6 +13,9 @@ class CommandLine;
 /// Adds --nodes and --seed, which every command that plans a mission takes.
 void add_plan_options(CommandLine& line, PlanOptions& options,
                       const std::string& nodes_say = "nodes of the first grid on each stretch");
+
+/// Adds --confidence, which replaces the mission's.
+void add_confidence(CommandLine& line, std::optional<double>& confidence);
 
 /// Adds the options for the input: the file, --robot, --map, and for a path --payload and (`with_time`)
 /// --time.

@@ -101,6 +101,26 @@ void print_winding(std::ostream& stream, const WindingAccount& winding) {
   stream << "\n";
 }
 
+/// `arrival 0.97, reserve > 0.999 (binds)`.
+std::string promises_text(const ConfidenceAccount& account) {
+  std::string text;
+  for (const Promise& promise : account.promises)
+    text += (text.empty() ? "" : ", ") + promise.name + " " +
+            (promise.kept > 0.999 ? "> 0.999" : figure(promise.kept, 3)) + (promise.binds ? " (binds)" : "");
+  return text;
+}
+
+void print_confidence(std::ostream& stream, const Plan& plan) {
+  const ConfidenceAccount& account = *plan.confidence;
+  stream << "kept with " << figure(account.kept, 4) << " of " << std::to_string(account.draws)
+         << " drawn robots (asked " << figure(account.asked, 4) << ", shown "
+         << figure(account.kept_at_least, 4) << "): " << promises_text(account) << "\n";
+  if (account.limit_shares.empty() && account.reserve_margin == 0) return;
+  stream << "  confidence costs " << figure(plan.energy.total_J() - account.energy_without_J, 3) << " J and "
+         << figure(plan.duration_s - account.duration_without_s, 3) << " s; without margins "
+         << figure(account.kept_without, 3) << " of them keep their promises\n";
+}
+
 /// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and
 /// resistances, up for limits and times. Positions keep all digits: a rounded one may be blocked.
 std::string relaxed_figure(const std::string& key, double value) {
@@ -158,6 +178,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
     print_path_bound(stream, plan);
     if (plan.battery) print_battery(stream, *plan.battery, plan.sigma_has_model_error);
     if (plan.winding) print_winding(stream, *plan.winding);
+    if (plan.confidence) print_confidence(stream, plan);
     stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }
   stream << "results in " << directory << "\n";

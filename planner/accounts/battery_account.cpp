@@ -9,6 +9,7 @@
 #include "model/limit_table.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
+#include "planner/accounts/charge.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/values/verdict_text.hpp"
@@ -20,16 +21,6 @@ struct LegLoss {
   double loss_J{};
   double lowest_voltage_V{kNoLimit};
 };
-
-/// Part of the standby power (W) that the charger at a leg's stop feeds.
-double fed_W(const LegPlan& leg, double standby_W) { return std::min(leg.charger_W, standby_W); }
-
-/// Time (s) at rest on the battery: waits, and the dwell except where a charger feeds the robot.
-double resting_s(const LegPlan& leg, double standby_W) {
-  double rest_s = leg.charger_W < standby_W ? leg.dwell_s : 0.0;
-  for (const StretchPlan& stretch : leg.stretches) rest_s += stretch.profile.wait_s;
-  return leg.stretches.empty() && !leg.prescribed ? rest_s + leg.duration_s : rest_s;
-}
 
 LegLoss loss_on(const LegPlan& leg, const Plant& nominal) {
   const Plant plant = plant_in(nominal, leg.state);
@@ -70,40 +61,15 @@ double voltage_error_V(const Battery& battery, const LegState& state, double mos
                   std::abs(open_circuit_voltage_V(battery, least) - state.open_circuit_voltage_V));
 }
 
-/// State of charge over the legs.
-class Charge {
- public:
-  Charge(const Battery& battery, double start_fraction)
-      : battery_(battery), capacity_J_(battery.capacity_Wh * kJoulesPerWh), start_(start_fraction) {}
-
-  double fraction() const { return fraction_after(battery_, start_, net_J_); }
-  double peak_J() const { return peak_J_; }
-
-  void draw(double energy_J) {
-    net_J_ += energy_J;
-    peak_J_ = std::max(peak_J_, net_J_ - least_net_J_);
-  }
-  /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
-  double take_up(double power_W, double duration_s, double to_fraction) {
-    const double stored_W = stored_power_W(battery_, fraction(), power_W),
-                 accepted_W = accepted_power_W(battery_, fraction(), power_W);
-    const double stored_J = std::clamp(energy_share_between(battery_, fraction(), to_fraction) * capacity_J_,
-                                       0.0, std::max(0.0, stored_W * duration_s));
-    net_J_ -= stored_J;
-    least_net_J_ = std::min(least_net_J_, net_J_);
-    return stored_W > 0 ? stored_J * accepted_W / stored_W : 0.0;
-  }
-
- private:
-  const Battery& battery_;
-  double capacity_J_;
-  double start_;
-  double net_J_{};
-  double least_net_J_{};  ///< where the battery was fullest
-  double peak_J_{};       ///< the greatest discharge from there on
-};
-
 }  // namespace
+
+double fed_W(const LegPlan& leg, double standby_W) { return std::min(leg.charger_W, standby_W); }
+
+double resting_s(const LegPlan& leg, double standby_W) {
+  double rest_s = leg.charger_W < standby_W ? leg.dwell_s : 0.0;
+  for (const StretchPlan& stretch : leg.stretches) rest_s += stretch.profile.wait_s;
+  return leg.stretches.empty() && !leg.prescribed ? rest_s + leg.duration_s : rest_s;
+}
 
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
   std::vector<double> leg_variance_J2(plan.legs.size(), 0.0);

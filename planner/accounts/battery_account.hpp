@@ -17,6 +17,12 @@ namespace joulepath {
                                                             double start_fraction,
                                                             double charge_to_fraction = 1.0);
 
+/// Part of the standby power (W) that the charger at a leg's stop feeds.
+[[nodiscard]] double fed_W(const LegPlan& leg, double standby_W);
+
+/// Time (s) at rest on the battery: waits, and the dwell except where a charger feeds the robot.
+[[nodiscard]] double resting_s(const LegPlan& leg, double standby_W);
+
 /// The least state of charge on all legs of a mission, which has one.
 [[nodiscard]] double least_fraction(const BatteryAccount& account);
 

@@ -27,13 +27,6 @@ void each_field(Archive& archive, DriveAccount& value) {
   archive(replay, energy, battery_loss_J, lowest_voltage_V, sigma_shift_J);
 }
 
-Plant changed(const Plant& plant, const Nuisance& nuisance, double fraction) {
-  Plant other = plant;
-  apply_nuisance(nuisance, fraction, other.robot);
-  if (is_payload_nuisance(nuisance)) other.payload_factor *= 1.0 + fraction;
-  return other;
-}
-
 /// Accounts for the nodes of the energy integral in one pass, for all constants.
 DriveAccount drive_account(const ProfileRequest& request, const Profile& profile,
                            const UncertainPlant& plant) {
@@ -60,11 +53,17 @@ DriveAccount drive_account(const ProfileRequest& request, const Profile& profile
 
 }  // namespace
 
+Plant with_error(Plant plant, const Nuisance& nuisance, double fraction) {
+  apply_nuisance(nuisance, fraction, plant.robot);
+  if (is_payload_nuisance(nuisance)) plant.payload_factor *= 1.0 + fraction;
+  return plant;
+}
+
 UncertainPlant uncertain(Plant plant) {
   UncertainPlant all{.plant = std::move(plant)};
   for (const Nuisance& nuisance : nuisances_of(all.plant.robot))
     all.shifted.push_back(
-        {changed(all.plant, nuisance, nuisance.sigma), changed(all.plant, nuisance, -nuisance.sigma)});
+        {with_error(all.plant, nuisance, nuisance.sigma), with_error(all.plant, nuisance, -nuisance.sigma)});
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "model/nuisance.hpp"
 #include "planner/cache/answer_cache.hpp"
 #include "planner/values/plan.hpp"
 
@@ -13,6 +14,9 @@ struct UncertainPlant {
   std::vector<std::array<Plant, 2>> shifted{};  ///< per entry of `uncertainty:`, one sigma more and one less
 };
 [[nodiscard]] UncertainPlant uncertain(Plant plant);
+
+/// A plant whose constant is (1 + fraction) times as large.
+[[nodiscard]] Plant with_error(Plant plant, const Nuisance& nuisance, double fraction);
 
 /// Computes the accounts of a planned stretch: independent replay, energy by cause, battery loss, and the
 /// change by each uncertain constant. `request` and `profile` must be set.

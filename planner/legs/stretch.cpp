@@ -45,14 +45,27 @@ void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_li
   append_until(length_m);
 }
 
+void leave_margins(ProfileRequest& request, const LimitShares& shares) {
+  for (const auto& [name, share] : shares) {
+    const Limit& row = *limit_named(name);
+    if (row.field != nullptr) request.limits.*row.field *= share;
+    for (const Side side : kSides)
+      if (row.field == nullptr) request.plant.robot.motor[side].*row.rating *= share;
+  }
+}
+
 }  // namespace
 
 Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
   Limits limits = limits_between_payloads(robot, payload.from_kg, payload.to_kg);
-  limits.battery_power_W = std::min(limits.battery_power_W, planned_battery_power_W(robot.battery));
-  limits.battery_voltage_V = std::min(limits.battery_voltage_V, motor_supply_V(robot.battery));
-  limits.charge_power_W = std::min(limits.charge_power_W, most_charge_power_W(robot.battery));
+  limit_by_battery(limits, robot.battery);
   return limits;
+}
+
+void limit_by_battery(Limits& limits, const Battery& battery) {
+  limits.battery_power_W = std::min(limits.battery_power_W, planned_battery_power_W(battery));
+  limits.battery_voltage_V = std::min(limits.battery_voltage_V, motor_supply_V(battery));
+  limits.charge_power_W = std::min(limits.charge_power_W, most_charge_power_W(battery));
 }
 
 bool may_reverse(const Robot& robot, const LegRequest& leg) {
@@ -106,6 +119,7 @@ std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg
                         .accuracy = options.accuracy,
                         .solver = options.solver,
                         .memory = memory});
+    leave_margins(requests.back(), options.limit_shares);
     memory = memory_after(requests.back());
     offset_m += length_m;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "planner/cache/answer_cache.hpp"
@@ -16,23 +18,30 @@ struct WaySteps {
   bool refinement{true};  ///< path and speed together; else corners stay as they were blended
 };
 
+/// The share of a limit that a plan may use, by the limit's name: the rest is its margin.
+using LimitShares = std::map<std::string, double>;
+
 struct PlanOptions {
   SolverChoice solver{SolverChoice::ipopt};
   std::size_t nodes{200};
   double accuracy{1e-4};
   unsigned seed{1};
   WaySteps steps{};
-  bool baselines{true};      ///< compare with classic profiles
-  bool path_bound{};         ///< bound the energy over all paths
-  unsigned threads{1};       ///< threads for the legs of one mission; the plan does not depend on it
-  SharedAnswers answers{};   ///< cached answers of other missions; the plan does not depend on them
-  bool any_price_of_heat{};  ///< whether windings can be kept at all: not at the least price
+  bool baselines{true};        ///< compare with classic profiles
+  bool path_bound{};           ///< bound the energy over all paths
+  unsigned threads{1};         ///< threads for the legs of one mission; the plan does not depend on it
+  SharedAnswers answers{};     ///< cached answers of other missions; the plan does not depend on them
+  bool any_price_of_heat{};    ///< whether windings can be kept at all: not at the least price
+  LimitShares limit_shares{};  ///< of the limits that profiles use; the others in full
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way,
 /// with the battery's own greatest power.
 [[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
+
+/// What of these limits depends on the battery, for another one: the least of both.
+void limit_by_battery(Limits& limits, const Battery& battery);
 
 /// Whether a leg may be driven backward: its direction allows it, and the robot states a reverse speed.
 [[nodiscard]] bool may_reverse(const Robot& robot, const LegRequest& leg);

@@ -11,6 +11,7 @@
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/accounts/winding_account.hpp"
 #include "planner/bound/path_bound.hpp"
+#include "planner/confidence/confident_plan.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/mission/charging.hpp"
 #include "planner/mission/drift.hpp"
@@ -381,12 +382,9 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
   blame_battery(answer, world.robot, payload, plans_by);
 }
 
-}  // namespace
-
-Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
-                  const RouteSpace* space) {
-  std::optional<RouteSpace> own_space;
-  if (!space && (own_space = route_space(asked, world))) space = &*own_space;
+/// Plans a mission, whatever confidence it asks for.
+Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
+               const RouteSpace* space) {
   const Plan known{.mission = asked.name, .status = SolveStatus::optimal};
   const Plant plant = make_plant(world.robot);
   const bool visits = !asked.visit.empty() && asked.legs.empty();
@@ -402,6 +400,22 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;
+}
+
+}  // namespace
+
+Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
+                  const RouteSpace* space) {
+  std::optional<RouteSpace> own_space;
+  if (!space && (own_space = route_space(asked, world))) space = &*own_space;
+  const PlanOnce once = [&](const MissionRequest& mission, const MissionWorld& in, const PlanOptions& how) {
+    return plan_once(mission, in, how, space);
+  };
+  if (!asked.objective.confidence || options.draft) return once(asked, world, options);
+  Plan plan = confident_plan(asked, world, options, once);
+  if (options.path_bound && !plan.path_bound)
+    add_path_bounds(plan, asked, world, make_plant(world.robot), space);
+  return plan;
 }
 
 }  // namespace joulepath

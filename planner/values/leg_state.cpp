@@ -21,14 +21,18 @@ Plant plant_in(Plant plant, const LegState& state) {
   return plant;
 }
 
-std::array<double, 6> drifting_constants(const Plant& plant) {
+std::array<double, 10> drifting_constants(const Plant& plant) {
   const auto& [left, right] = plant.robot.motor;
   return {plant.robot.battery.open_circuit_voltage_V,
           plant.robot.battery.internal_resistance_ohm,
           left.resistance_ohm,
           right.resistance_ohm,
           plant.heat_price_ohm.left,
-          plant.heat_price_ohm.right};
+          plant.heat_price_ohm.right,
+          left.max_current_A,
+          right.max_current_A,
+          left.max_voltage_V,
+          right.max_voltage_V};
 }
 
 Plant priced_plant_in(Plant plant, const LegState& state) {

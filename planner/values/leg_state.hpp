@@ -23,9 +23,9 @@ struct LegState {
 [[nodiscard]] Robot robot_in(Robot robot, const LegState& state);
 [[nodiscard]] Plant plant_in(Plant plant, const LegState& state);
 
-/// The plant's constants that differ between the legs of a mission, or between trials of a verdict: what of a
-/// plant is part of a cached question.
-[[nodiscard]] std::array<double, 6> drifting_constants(const Plant& plant);
+/// The plant's constants that differ between the legs of a mission, between trials of a verdict, or by a
+/// margin of confidence: what of a plant is part of a cached question.
+[[nodiscard]] std::array<double, 10> drifting_constants(const Plant& plant);
 
 /// The plant with which a leg is planned, with its price of heat.
 [[nodiscard]] Plant priced_plant_in(Plant plant, const LegState& state);

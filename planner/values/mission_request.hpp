@@ -94,11 +94,16 @@ struct VisitRequest {
   ItemMarks marks{};
 };
 
+/// The confidences that a mission may ask for: a sample of draws shows at most the greatest one.
+inline constexpr double kLeastConfidence = 0.51, kGreatestConfidence = 0.9999;
+
 struct Objective {
   enum class Minimize { energy, time, energy_and_time };
   Minimize minimize{Minimize::energy};
   std::optional<double> deadline_s{};
   double time_value_W{};  ///< energy_and_time: the price of a second, in watts
+  std::optional<double>
+      confidence{};  ///< probability with which all promises are kept together; none: not asked
   ItemMarks marks{};
 };
 

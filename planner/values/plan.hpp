@@ -154,6 +154,28 @@ struct WindingAccount {
   std::vector<Sided<double>> resistance_factor_on_leg{};  ///< mean by copper loss
 };
 
+/// A promise of a plan, with the share of drawn robots that keep it.
+struct Promise {
+  std::string name{};  ///< `arrival`, `reserve`, or a limit's name
+  double kept{};
+  bool binds{};  ///< a margin is left for it, and used up
+};
+
+/// With what probability the promises of a plan are kept together. The robot tracks the planned speed; it is
+/// late only where a limit of motors, battery or tires saturates.
+struct ConfidenceAccount {
+  double asked{};
+  std::size_t draws{};     ///< of the robot, from its `uncertainty:`; none of them shaped the plan
+  double kept{};           ///< share of the draws that keep all promises
+  double kept_at_least{};  ///< one-sided 95 % lower bound of the probability (Clopper-Pearson)
+  std::vector<Promise> promises{};
+  std::map<std::string, double> limit_shares{};  ///< of the limits, that the plan uses at most
+  double reserve_margin{};                       ///< state of charge that the plan leaves above the reserve
+  double kept_without{};                         ///< share of draws that the plan without margins keeps
+  double energy_without_J{};                     ///< of the plan without margins
+  double duration_without_s{};
+};
+
 /// The result for a mission.
 struct Plan {
   std::string mission{};
@@ -175,7 +197,8 @@ struct Plan {
   double worst_violation{};
   std::string worst_limit{};
   std::optional<BatteryAccount> battery{};
-  std::optional<WindingAccount> winding{};  ///< absent: the motors state no `thermal`
+  std::optional<WindingAccount> winding{};        ///< absent: the motors state no `thermal`
+  std::optional<ConfidenceAccount> confidence{};  ///< absent: not asked for
   std::optional<VisitOrder> visit{};
   std::optional<PathBound> path_bound{};  ///< absent: not asked for
   std::vector<BaselineTotal> baselines{};

@@ -146,6 +146,7 @@ Objective read_objective(const Node& node) {
   const std::string word = node.text_or("minimize", "energy");
   Objective objective{.deadline_s = node.optional_number("deadline_s"),
                       .time_value_W = node.number_or("time_value_W", 0.0),
+                      .confidence = node.optional_number("confidence"),
                       .marks = marks_of(node)};
   objective.minimize = word == "time"              ? Objective::Minimize::time
                        : word == "energy_and_time" ? Objective::Minimize::energy_and_time

@@ -77,7 +77,9 @@ Schema objective_schema() {
   return map(
       {optional("minimize", choice({"energy", "time", "energy_and_time"})),
        optional("deadline_s", number(kPositive)),
-       optional("time_value_W", number(kNotNegative), "value of a second in watts, with energy_and_time")});
+       optional("time_value_W", number(kNotNegative), "value of a second in watts, with energy_and_time"),
+       optional("confidence", number({kLeastConfidence, kGreatestConfidence}),
+                "probability with which deadlines, reserve and limits are kept together")});
 }
 
 }  // namespace

@@ -204,6 +204,25 @@ Json winding_json(const Plan& plan) {
            list_of_states(plan, [](const LegState& state) { return sided_json(state.resistance_factor); })}};
 }
 
+Json confidence_json(const Plan& plan) {
+  const ConfidenceAccount& account = *plan.confidence;
+  Json promises = Json::array();
+  for (const Promise& promise : account.promises)
+    promises.push_back({{"name", promise.name}, {"kept", promise.kept}, {"binds", promise.binds}});
+  Json json{{"asked", account.asked},
+            {"draws", account.draws},
+            {"kept_without_margins", account.kept_without},
+            {"energy_without_margins_J", account.energy_without_J},
+            {"duration_without_margins_s", account.duration_without_s}};
+  if (plan.status > SolveStatus::feasible) return json;
+  json["kept"] = account.kept;
+  json["kept_at_least"] = account.kept_at_least;
+  json["promises"] = promises;
+  json["limit_shares"] = account.limit_shares;
+  json["reserve_margin_fraction"] = account.reserve_margin;
+  return json;
+}
+
 Json infeasibility_json(const PlanInfeasibility& verdict) {
   return {{"constraint", verdict.reason.constraint},
           {"leg", verdict.leg},
@@ -275,6 +294,7 @@ std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& rob
     json["infeasibility"] = infeasibility_json(*plan.infeasibility);
   else if (plan.status != SolveStatus::failed)
     add_results(plan, json);
+  if (plan.confidence) json["confidence"] = confidence_json(plan);
   return json.dump(1) + "\n";
 }
 

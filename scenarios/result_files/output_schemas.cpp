@@ -112,6 +112,20 @@ Schema winding_result_schema() {
                             "of the copper relative to the cold one, with which the leg was planned")}));
 }
 
+Schema confidence_schema() {
+  return open(map(
+      {required("asked", result()), required("draws", integer(), "robots, from the file's uncertainty"),
+       optional("kept", result(), "share of the draws that keep all promises"),
+       optional("kept_at_least", result(), "one-sided 95 % lower bound of the probability"),
+       optional("promises", list(open(map({required("name", text(), "arrival, reserve, or a limit"),
+                                           required("kept", result()),
+                                           required("binds", boolean(), "a margin is left, and used up")})))),
+       optional("limit_shares", dictionary(result()), "of the limits, that the plan uses at most"),
+       optional("reserve_margin_fraction", result(), "state of charge left above the reserve"),
+       required("kept_without_margins", result(), "share of the draws that a plan without margins keeps"),
+       required("energy_without_margins_J", result()), required("duration_without_margins_s", result())}));
+}
+
 Schema infeasibility_schema() {
   return open(
       map({required("constraint", text()), required("leg", integer()), required("arc_length_m", result()),
@@ -258,6 +272,7 @@ Schema plan_schema() {
                                     required("limit", text())}))),
        optional("battery", battery_result_schema()),
        optional("winding", winding_result_schema()),
+       optional("confidence", confidence_schema(), "where one was asked for"),
        optional("legs", list(leg_result_schema())),
        optional("baselines", baselines_schema()),
        optional("infeasibility", infeasibility_schema())}));

@@ -8,7 +8,7 @@ import sys
 # From the ground up; a room may include itself and the rooms before it. The longest prefix decides.
 PLANNER = """model planner/cache planner/path/geometry planner/path/floor planner/path/shape planner/path/search planner/values
 planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
-planner/joint planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/bound planner/mission
+planner/joint planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/bound planner/confidence planner/mission
 planner/controller""".split()
 DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/prediction diagnosis/simulator diagnosis/checks
 diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "model/nuisance.hpp"
+#include "model/plant.hpp"
+
+namespace joulepath {
+
+/// A plant as it may be.
+struct PlantDraw {
+  Plant plant{};
+  std::vector<double> sigmas{};  ///< errors in sigmas: of nuisances_of(robot), then of the model itself
+};
+
+/// Plants drawn from the errors that a robot file states (`uncertainty:`). Each error is normal; one that
+/// would leave less than a twentieth of a constant is drawn again. The same seed gives the same plants. The
+/// model's own error is a number of sigmas only: what it does depends on the motion (PlanDemands).
+class PlantDraws {
+ public:
+  PlantDraws(const Plant& plant, std::uint64_t seed);
+
+  [[nodiscard]] PlantDraw next();
+
+ private:
+  /// The errors of the constants, in sigmas.
+  std::vector<double> sigmas();
+
+  const Plant& plant_;
+  std::vector<Nuisance> nuisances_{};
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_{};
+};
+
+}  // namespace joulepath
