@@ -5,7 +5,7 @@
 
 #include "model/config_error.hpp"
 #include "model/local_fit.hpp"
-#include "model/nuisance.hpp"
+#include "model/nuisance_correlation.hpp"
 #include "model/sampled_motion.hpp"
 
 namespace joulepath {
@@ -177,11 +177,13 @@ double energy_sigma_J(const Robot& robot, const Trajectory& log, const EstimateO
   const double model_J = robot.model_energy_sigma().value_or(0) *
                          estimate_energy(make_plant(robot), log, options).by_cause.motion_J();
   double variance_J2 = model_J * model_J;
+  std::vector<double> shifts_J;
   for (const Nuisance& nuisance : nuisances_of(robot)) {
     const double half_J = (energy_J(nuisance, nuisance.sigma) - energy_J(nuisance, -nuisance.sigma)) / 2;
     variance_J2 += half_J * half_J;
+    shifts_J.push_back(half_J);
   }
-  return std::sqrt(variance_J2);
+  return std::sqrt(std::max(0.0, variance_J2 + correlated_variance(shifts_J, nuisance_correlation(robot))));
 }
 
 }  // namespace joulepath

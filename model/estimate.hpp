@@ -46,7 +46,7 @@ struct EnergyEstimate {
 [[nodiscard]] std::optional<double> measured_battery_energy_J(const Trajectory& log);
 
 /// 1-sigma (J) of the energy at the terminals, battery loss included, from the robot file's uncertainty:
-/// central differences over every constant that `uncertainty:` names, errors independent.
+/// central differences over every constant that `uncertainty:` names, with its correlations.
 [[nodiscard]] double energy_sigma_J(const Robot& robot, const Trajectory& log,
                                     const EstimateOptions& options = {});
 

@@ -102,6 +102,14 @@ struct EffectSetting {
   std::vector<std::array<double, 4>> cells{};  ///< of a region: x_min, x_max, y_min, y_max each
 };
 
+/// One entry of `uncertainty_correlations:`: between the errors of two keys of `uncertainty:`.
+struct Correlation {
+  std::string first{}, second{};
+  double correlation{};  ///< in (-1, 1)
+
+  bool operator==(const Correlation&) const = default;
+};
+
 /// The content of a robot file.
 struct Robot {
   std::string name{};
@@ -115,7 +123,8 @@ struct Robot {
   Battery battery{};
   Footprint footprint{};
   std::vector<EffectSetting> effects{};
-  std::map<std::string, double> uncertainty{};  ///< relative 1-sigma by key; none: unknown
+  std::map<std::string, double> uncertainty{};          ///< relative 1-sigma by key; none: unknown
+  std::vector<Correlation> uncertainty_correlations{};  ///< between these errors; absent pairs: 0
   /// Relative 1-sigma of the model's energy of motion, one error for a whole mission, beside the errors of
   /// the constants; nothing: not measured.
   std::optional<double> model_energy_sigma() const {

@@ -8,6 +8,7 @@
 #include "model/battery_power.hpp"
 #include "model/limit_table.hpp"
 #include "model/normal_quantiles.hpp"
+#include "model/nuisance_correlation.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/accounts/charge.hpp"
 #include "planner/legs/leg_motion.hpp"
@@ -61,6 +62,14 @@ double voltage_error_V(const Battery& battery, const LegState& state, double mos
                   std::abs(open_circuit_voltage_V(battery, least) - state.open_circuit_voltage_V));
 }
 
+/// Variance (J^2) of changes at one sigma per uncertain constant, and of the model's own.
+double variance_J2(const std::vector<double>& shifts_J, double of_model_J,
+                   const Eigen::MatrixXd& correlation) {
+  double sum_J2 = 0.0;
+  for (const double shift_J : shifts_J) sum_J2 += shift_J * shift_J;
+  return std::max(0.0, sum_J2 + of_model_J * of_model_J + correlated_variance(shifts_J, correlation));
+}
+
 }  // namespace
 
 double fed_W(const LegPlan& leg, double standby_W) { return std::min(leg.charger_W, standby_W); }
@@ -72,26 +81,26 @@ double resting_s(const LegPlan& leg, double standby_W) {
 }
 
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
-  std::vector<double> leg_variance_J2(plan.legs.size(), 0.0);
-  double variance_J2 = 0.0;
-  const auto add = [&](const auto& shift_of_leg_J) {
-    double sum_J = 0.0;
-    for (std::size_t k = 0; k < plan.legs.size(); ++k) {
-      const double shift_J = shift_of_leg_J(plan.legs[k]);
-      leg_variance_J2[k] += shift_J * shift_J;
-      sum_J += shift_J;
-    }
-    variance_J2 += sum_J * sum_J;
-  };
-  for (std::size_t i = 0; i < plant.shifted.size(); ++i)
-    add([&](const LegPlan& leg) { return sigma_shift_J(leg, plant, i); });
+  const Eigen::MatrixXd correlation = nuisance_correlation(plant.plant.robot);
   const std::optional<double> of_model = plant.plant.robot.model_energy_sigma();
-  add([&](const LegPlan& leg) { return of_model.value_or(0) * leg.energy.motion_J(); });
-  if (variance_J2 <= 0) return;
+  std::vector<double> shifts_J(plant.shifted.size(), 0.0), leg_variances_J2;
+  double of_model_J = 0.0;
+  for (const LegPlan& leg : plan.legs) {
+    std::vector<double> of_leg_J;
+    for (std::size_t i = 0; i < shifts_J.size(); ++i) {
+      of_leg_J.push_back(sigma_shift_J(leg, plant, i));
+      shifts_J[i] += of_leg_J[i];
+    }
+    const double leg_model_J = of_model.value_or(0) * leg.energy.motion_J();
+    of_model_J += leg_model_J;
+    leg_variances_J2.push_back(variance_J2(of_leg_J, leg_model_J, correlation));
+  }
+  const double whole_J2 = variance_J2(shifts_J, of_model_J, correlation);
+  if (whole_J2 <= 0) return;
   plan.sigma_has_model_error = of_model.has_value();
-  plan.energy_sigma_J = std::sqrt(variance_J2);
+  plan.energy_sigma_J = std::sqrt(whole_J2);
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
-    plan.legs[k].energy_sigma_J = std::sqrt(leg_variance_J2[k]);
+    plan.legs[k].energy_sigma_J = std::sqrt(leg_variances_J2[k]);
 }
 
 std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& uncertain,

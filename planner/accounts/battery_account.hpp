@@ -46,9 +46,9 @@ void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans);
 /// Replaces the sentence of a plan's verdict in its message, `told`, by the one of its present relaxations.
 void tell_anew(Plan& plan, const std::string& told);
 
-/// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
-/// of `uncertainty:`, each propagated through the power model along the planned motion by central
-/// differences, and the model's own error. Errors of the legs are correlated, so the plan's sigma is above
+/// 1-sigma of the energy (J) of a plan and of each of its legs, from the entries of `uncertainty:` with their
+/// correlations, each propagated through the power model along the planned motion by central differences, and
+/// the model's own error. Errors of the legs are correlated, so the plan's sigma is above
 /// the root sum of squares of the legs. Where all constants are exact, or none is stated, nothing is set.
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant);
 

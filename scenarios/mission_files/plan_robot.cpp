@@ -13,6 +13,7 @@ PlanRobot plan_robot(const Robot& robot) {
   Robot nameless = robot;
   nameless.name.clear();
   nameless.uncertainty.clear();
+  nameless.uncertainty_correlations.clear();
   return {robot.name, content_key(robot_text(nameless)).text()};
 }
 

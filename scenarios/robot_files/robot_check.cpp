@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "model/nuisance_correlation.hpp"
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/robot_files/implausible_constants.hpp"
 
 namespace joulepath {
@@ -73,6 +75,23 @@ void check_battery(const Node& root, const Robot& robot) {
                         "no such key");
 }
 
+/// A name in a pair: a constant whose error is stated.
+void check_correlated(const Node& name, const Robot& robot) {
+  if (may_correlate(robot, name.text())) return;
+  std::vector<std::string> accepted;
+  for (const auto& [key, sigma] : robot.uncertainty)
+    if (may_correlate(robot, key)) accepted.push_back(key);
+  const bool alone = name.text() == "payload_kg" || name.text() == "model_energy";
+  name.fail(accepted.empty() ? "keys with a sigma above 0 in uncertainty" : text_of_list(accepted),
+            alone ? "this error is independent of those of the constants"
+                  : "a constant whose sigma uncertainty states, above 0");
+}
+
+bool is_same_pair(const Correlation& one, const Correlation& other) {
+  return (one.first == other.first && one.second == other.second) ||
+         (one.first == other.second && one.second == other.first);
+}
+
 /// Ray casting, edges not included.
 bool is_inside(const Footprint& footprint, double x_m, double y_m) {
   if (footprint.polygon_m.empty()) return std::hypot(x_m, y_m) <= footprint.radius_m;
@@ -99,6 +118,32 @@ void check_robot(const Node& root, const Robot& robot) {
   }
   check_heat(root, robot);
   check_battery(root, robot);
+}
+
+void check_correlation(const Node& item, const Robot& robot, const std::vector<Correlation>& pairs) {
+  const Correlation& last = pairs.back();
+  check_correlated(item["first"], robot);
+  check_correlated(item["second"], robot);
+  if (last.first == last.second) item["second"].fail("another key than first", "an error is itself");
+  if (std::abs(last.correlation) >= 1) item["correlation"].fail("a number between -1 and 1, both excluded");
+  for (std::size_t k = 0; k + 1 < pairs.size(); ++k)
+    if (is_same_pair(pairs[k], last))
+      item.fail_found("the pair " + last.first + " and " + last.second + " again", "each pair once");
+}
+
+void check_correlation_matrix(const Node& list, Robot robot, const std::vector<Correlation>& pairs) {
+  std::vector<bool> holds{true};  // with so many pairs
+  robot.uncertainty_correlations.clear();
+  for (const Correlation& pair : pairs) {
+    robot.uncertainty_correlations.push_back(pair);
+    holds.push_back(cholesky_factor(nuisance_correlation(robot)).has_value());
+  }
+  if (holds.back()) return;
+  std::size_t last = pairs.size();
+  while (!holds[last - 1]) --last;
+  list.items()[last - 1].fail_found(
+      "correlations that no errors have together", "a positive definite matrix",
+      "the pairs before " + pairs[last - 1].first + " and " + pairs[last - 1].second + " make one");
 }
 
 void check_polygon(const Node& polygon, const std::vector<std::array<double, 2>>& corners) {

@@ -148,6 +148,17 @@ Footprint read_footprint(const Node& node) {
   return footprint;
 }
 
+/// The pairs of `uncertainty_correlations:` of a robot whose `uncertainty:` is known.
+std::vector<Correlation> read_correlations(const Node& node, const Robot& robot) {
+  std::vector<Correlation> pairs;
+  for (const Node& item : node.items()) {
+    pairs.push_back({item["first"].text(), item["second"].text(), item["correlation"].number()});
+    check_correlation(item, robot, pairs);
+  }
+  check_correlation_matrix(node, robot, pairs);
+  return pairs;
+}
+
 /// Several required values that are absent make one error that lists them.
 void check_all_there(const Document& document, const Schema& schema) {
   try {
@@ -191,6 +202,8 @@ Robot robot_from(const Document& document) {
   if (const auto effects = root.find("effects")) robot.effects = read_effect_list(*effects);
   if (const auto uncertainty = root.find("uncertainty"))
     for (const auto& [key, value] : uncertainty->entries()) robot.uncertainty[key] = value.number();
+  if (const auto correlations = root.find("uncertainty_correlations"))
+    robot.uncertainty_correlations = read_correlations(*correlations, robot);
   check_robot(root, robot);
   return robot;
 }

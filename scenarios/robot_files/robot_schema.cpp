@@ -118,6 +118,11 @@ Schema uncertainty_schema() {
   return map(std::move(keys));
 }
 
+Schema correlations_schema() {
+  return list(map({required("first", text(), "a key of uncertainty"), required("second", text(), "another"),
+                   required("correlation", number({-1, 1}), "of their errors, between -1 and 1")}));
+}
+
 }  // namespace
 
 Schema robot_schema() {
@@ -132,8 +137,9 @@ Schema robot_schema() {
        optional("power", power_schema()), optional("battery", battery_schema()),
        optional("footprint", footprint_schema()),
        optional("effects", effect_list_schema(), "effects added to the nominal model"),
-       optional("uncertainty", uncertainty_schema(),
-                "relative 1-sigma of the calibration; absent: unknown")}));
+       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: unknown"),
+       optional("uncertainty_correlations", correlations_schema(),
+                "correlations of these errors; pairs that are not listed: 0")}));
 }
 
 std::vector<std::string> required_robot_keys() {

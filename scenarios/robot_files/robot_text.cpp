@@ -147,7 +147,12 @@ std::string robot_text(const Robot& robot) {
   for (const auto& effect : robot.effects) text += effect_line(effect);
   Section uncertainty("uncertainty");  // 1 means that a value is unknown; files accept no more
   for (const auto& [key, value] : robot.uncertainty) uncertainty.number(key, std::min(value, 1.0));
-  return text + uncertainty.line();
+  text += uncertainty.line();
+  if (!robot.uncertainty_correlations.empty()) text += "uncertainty_correlations:\n";
+  for (const Correlation& pair : robot.uncertainty_correlations)
+    text += "  - {first: " + pair.first + ", second: " + pair.second +
+            ", correlation: " + number_text(pair.correlation) + "}\n";
+  return text;
 }
 
 }  // namespace joulepath

@@ -101,6 +101,8 @@ TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.0151}}},
                    {.name = "dragging_wheel", .parameters = {{"torque_Nm", 0.07}}, .side = Side::right},
                    {.name = "floor_patch", .parameters = {{"coefficient", 0.02}}, .cells = {{0, 1, 2, 3}}}};
+  robot.uncertainty_correlations = {{"friction_torque_Nm", "viscous_friction_Nm_s_rad", -0.87},
+                                    {"resistance_ohm", "torque_constant_Nm_A", 1.0 / 3}};
   const std::string text = robot_text(robot);
   const Robot again = robot_from(Document::parse(text, "again.yaml"));
   EXPECT_EQ(robot_text(again), text);
@@ -111,6 +113,7 @@ TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   EXPECT_EQ(again.footprint.polygon_m, robot.footprint.polygon_m);
   EXPECT_EQ(again.limits_by_payload[1].limit_by_key, robot.limits_by_payload[1].limit_by_key);
   EXPECT_EQ(again.uncertainty, robot.uncertainty);
+  EXPECT_EQ(again.uncertainty_correlations, robot.uncertainty_correlations);
 }
 
 TEST(RobotFile, LimitsAndBatteryAreNotNeededForDiagnosis) {

@@ -53,7 +53,7 @@ export function number_field({file, path, value, label, unit, says, optional}) {
 }
 const short_number = (value) => Number(Number(value).toPrecision(8));
 
-const kLeftOut = ["schema", "name", "uncertainty", "effects"];
+const kLeftOut = ["schema", "name", "uncertainty", "uncertainty_correlations", "effects"];
 /** All numbers of a value, in the order of the file. */
 export function fields_of(file, value, path = []) {
   const list = [];

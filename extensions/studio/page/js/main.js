@@ -53,7 +53,7 @@ function robot_panel() {
   let shown = "";
   const build = () => {
     shown = JSON.stringify(store.robot);
-    groups.replaceChildren(...Object.entries(store.robot).filter(([key, value]) => value && typeof value === "object" && key !== "uncertainty" && key !== "effects").map(([key, value]) => {
+    groups.replaceChildren(...Object.entries(store.robot).filter(([key, value]) => value && typeof value === "object" && !key.startsWith("uncertainty") && key !== "effects").map(([key, value]) => {
       const fields = fields_of("robot", value, [key]);
       return fields.length ? h("details", {open: key === "limits"}, h("summary", {}, h("h3", {}, key)), h("div", {class: "fields"}, fields)) : null;
     }).filter(Boolean));
