@@ -12,7 +12,10 @@ constexpr double kLeastShare = 0.05;
 }  // namespace
 
 PlantDraws::PlantDraws(const Plant& plant, std::uint64_t seed)
-    : plant_(plant), nuisances_(nuisances_of(plant.robot)), random_(seed) {}
+    : plant_(plant),
+      nuisances_(nuisances_of(plant.robot)),
+      factor_(cholesky_factor(nuisance_correlation(plant.robot)).value()),
+      random_(seed) {}
 
 std::vector<double> PlantDraws::sigmas() {
   std::vector<double> sigmas;
@@ -22,8 +25,10 @@ std::vector<double> PlantDraws::sigmas() {
     return false;
   };
   do {
-    sigmas.clear();
-    for (std::size_t i = 0; i < nuisances_.size(); ++i) sigmas.push_back(normal_(random_));
+    Eigen::VectorXd independent(static_cast<Eigen::Index>(nuisances_.size()));
+    for (double& value : independent) value = normal_(random_);
+    const Eigen::VectorXd correlated = factor_ * independent;
+    sigmas.assign(correlated.begin(), correlated.end());
   } while (is_too_low());
   return sigmas;
 }

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "model/nuisance.hpp"
+#include "model/nuisance_correlation.hpp"
 #include "model/plant.hpp"
 
 namespace joulepath {
@@ -14,9 +14,10 @@ struct PlantDraw {
   std::vector<double> sigmas{};  ///< errors in sigmas: of nuisances_of(robot), then of the model itself
 };
 
-/// Plants drawn from the errors that a robot file states (`uncertainty:`). Each error is normal; one that
-/// would leave less than a twentieth of a constant is drawn again. The same seed gives the same plants. The
-/// model's own error is a number of sigmas only: what it does depends on the motion (PlanDemands).
+/// Plants drawn from the errors that a robot file states (`uncertainty:`), with their correlations. Each
+/// error is normal; one that would leave less than a twentieth of a constant is drawn again. The same seed
+/// gives the same plants. The model's own error is a number of sigmas only: what it does depends on the
+/// motion (PlanDemands).
 class PlantDraws {
  public:
   PlantDraws(const Plant& plant, std::uint64_t seed);
@@ -29,6 +30,7 @@ class PlantDraws {
 
   const Plant& plant_;
   std::vector<Nuisance> nuisances_{};
+  Eigen::MatrixXd factor_{};  ///< of the correlation between the errors
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{};
 };
