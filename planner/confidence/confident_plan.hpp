@@ -5,7 +5,7 @@
 #include "planner/legs/stretch.hpp"
 #include "planner/values/plan.hpp"
 
-// Design: docs/decisions/0405-confidence.md
+// Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 
 /// Plans a mission without regard to its `objective.confidence`.
