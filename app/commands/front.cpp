@@ -91,6 +91,7 @@ class FrontCommand : public Command {
 
   static void drop_times(MissionRequest& mission, bool keep_times) {
     mission.objective = {.deadline_s = keep_times ? mission.objective.deadline_s : std::nullopt,
+                         .confidence = mission.objective.confidence,
                          .marks = mission.objective.marks};
     if (keep_times) return;
     for (LegRequest& leg : mission.legs) {

@@ -76,6 +76,11 @@ class Plan(Value):
         return self.json.get("winding")
 
     @property
+    def confidence(self) -> Record | None:
+        """With what probability the promises are kept, as plan.json has it; None where ``objective.confidence`` is not stated."""
+        return self.json.get("confidence")
+
+    @property
     def duration_s(self) -> float:
         """Driving, waiting and dwell."""
         return float(self.json.duration_s)

@@ -157,6 +157,20 @@ jp.winding_section = function (plan) {
       (plan.legs || []).map((leg, k) => [`${k} ${leg.to}`, ...both(winding.highest_on_leg_C, k), ...both(winding.after_leg_C, k)])));
 };
 
+/** With what probability the promises are kept together, and what that costs. */
+jp.confidence_section = function (plan) {
+  const account = plan.confidence;
+  if (!account || !is_number(account.kept)) return null;
+  const kept = (share) => (share > 0.999 ? "> 99.9 %" : percent(100 * share, 3)), costs = [plan.energy_J - account.energy_without_margins_J, plan.duration_s - account.duration_without_margins_s];
+  const margins = Object.keys(account.limit_shares || {}).length > 0 || account.reserve_margin_fraction > 0;
+  return jp.section("Confidence",
+    h("p", {}, `${kept(account.kept)} of ${account.draws} robots, drawn from the robot file's uncertainty, keep all promises; the probability is above ${kept(account.kept_at_least)}, asked for were ${kept(account.asked)}. ` +
+      (margins ? `This takes ${with_unit(costs[0], "J", 3)} and ${with_unit(costs[1], "s", 3)} more than the plan without margins, which ${kept(account.kept_without_margins)} of them keep.` : "The plan needs no margins for it.")),
+    jp.table(["promise", {n: "kept"}, {n: "share of the limit used at most"}, ""],
+      (account.promises || []).map((one) => [words(one.name), {n: kept(one.kept)}, {n: is_number((account.limit_shares || {})[one.name]) ? percent(100 * account.limit_shares[one.name], 3) : ""}, one.binds ? "binds" : ""])),
+    h("p", {class: "soft"}, "The robot tracks the planned speed; it is late only where a limit of motors, battery or tires saturates."));
+};
+
 /** What each gap means, for readers who know neither. */
 jp.gap_texts = function (plan) {
   const texts = [];
@@ -230,5 +244,5 @@ jp.draw_plan = function (data) {
   const plan = data.plan, good = plan.status === "optimal" || plan.status === "feasible", motion = good ? jp.motion_section(data) : null;
   const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.station_marks(data, {}, []), whole: true, label: "Map with the place of the problem"}).element : null;
   jp.page(jp.header(data.title || "Plan", data.subtitle || "Energy-optimal plan", plan.status, good), jp.infeasibility_box(plan), good ? jp.plan_tiles(plan, data.savings || []) : null,
-    motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.battery_section(plan), jp.winding_section(plan), jp.trust_section(plan));
+    motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.confidence_section(plan), jp.battery_section(plan), jp.winding_section(plan), jp.trust_section(plan));
 };
