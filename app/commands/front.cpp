@@ -52,6 +52,7 @@ class FrontCommand : public Command {
         .between(0, 2000)
         .shows_default();
     add_plan_options(line, options_.plan, "nodes on each stretch");
+    add_confidence(line, confidence_);
   }
 
   int run() override {
@@ -74,11 +75,19 @@ class FrontCommand : public Command {
       return kInfeasibleOrFailed;
     }
     const FrontPoint rest = rest_of(plan);
+    std::optional<SureFront> sure;
+    if (confidence_) {
+      sure = sure_front(mission, world, open);
+      if (!sure->reason.empty()) {
+        std::cerr << "no front: " << sure->reason << "\n";
+        return kInfeasibleOrFailed;
+      }
+    }
     std::vector<Beside> beside;
     for (std::size_t k : chosen(front.points.size(), baseline_points_))
       beside.push_back({k, baselines_at(front.points[k], stretches, rest)});
     for (FrontPoint& point : front.points) point = sum_of(point, rest);
-    show(front, beside, plan.mission, out);
+    show(front, sure, beside, plan.mission, out);
     return kDone;
   }
 
@@ -91,13 +100,34 @@ class FrontCommand : public Command {
 
   static void drop_times(MissionRequest& mission, bool keep_times) {
     mission.objective = {.deadline_s = keep_times ? mission.objective.deadline_s : std::nullopt,
-                         .confidence = mission.objective.confidence,
                          .marks = mission.objective.marks};
     if (keep_times) return;
     for (LegRequest& leg : mission.legs) {
       leg.deadline_s.reset();
       leg.duration_s.reset();
     }
+  }
+
+  /// The front of a mission with the margins of its fastest drive that keeps the confidence.
+  struct SureFront {
+    LimitShares limit_shares{};
+    std::vector<FrontPoint> points{};
+    std::string reason{};  ///< reason why there is none
+  };
+
+  SureFront sure_front(const MissionRequest& mission, const MissionWorld& world, bool open) const {
+    MissionRequest fastest = mission;
+    fastest.objective.minimize = Objective::Minimize::time;
+    fastest.objective.confidence = confidence_;
+    const Plan held = plan_mission(fastest, world, options_.plan);
+    if (held.status > SolveStatus::feasible) return {.reason = held.message};
+    SureFront sure{.limit_shares = held.confidence->limit_shares};
+    const Plan plan = plan_mission(mission, world, with_limit_shares(options_.plan, sure.limit_shares));
+    if (plan.status > SolveStatus::feasible) return {.reason = plan.message};
+    sure.points =
+        energy_time_front(planned_stretches(plan), points_, open ? planned_price_W(plan) : 0.0).points;
+    for (FrontPoint& point : sure.points) point = sum_of(point, rest_of(plan));
+    return sure;
   }
 
   /// The classic profiles compared with one point of the front.
@@ -128,8 +158,8 @@ class FrontCommand : public Command {
     return totals;
   }
 
-  void show(const Front& front, const std::vector<Beside>& beside, const std::string& title,
-            OutputDirectory& out) const {
+  void show(const Front& front, const std::optional<SureFront>& sure, const std::vector<Beside>& beside,
+            const std::string& title, OutputDirectory& out) const {
     nlohmann::json result = {{"schema", "joulepath/front/1"},
                              {"mission", title},
                              {"points", nlohmann::json::array()},
@@ -138,17 +168,30 @@ class FrontCommand : public Command {
       result["points"].push_back(point_json(point, options_.plan.accuracy));
     for (const auto& [k, baselines] : beside)
       for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
+    if (sure) result["confidence"] = sure_json(*sure);
     if (writes_analysis(options_))
       write_analysis(out, kResult, result, report::front_report_html(result, {}, title));
     if (prints_analysis_table(options_, result)) {
-      print_points(front);
+      print_points(front.points);
+      if (sure) {
+        std::cout << "\nwith a confidence of " << figure(*confidence_, 4) << ":\n";
+        print_points(sure->points);
+      }
       print_baselines(front, beside);
     }
   }
 
-  void print_points(const Front& front) const {
+  nlohmann::json sure_json(const SureFront& sure) const {
+    nlohmann::json json{
+        {"asked", *confidence_}, {"limit_shares", sure.limit_shares}, {"points", nlohmann::json::array()}};
+    for (const FrontPoint& point : sure.points)
+      json["points"].push_back(point_json(point, options_.plan.accuracy));
+    return json;
+  }
+
+  void print_points(const std::vector<FrontPoint>& points) const {
     Table table({"duration s", "energy J", "without standby J", "price of a second W", "on these paths"});
-    for (const FrontPoint& point : front.points)
+    for (const FrontPoint& point : points)
       table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
                  std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
                  solve_status_name(point.status(options_.plan.accuracy))});
@@ -183,6 +226,7 @@ class FrontCommand : public Command {
   }
 
   static constexpr const char* kResult = "front.json";
+  std::optional<double> confidence_{};
   AnalysisOptions options_{};
   std::size_t points_{30};
   std::size_t baseline_points_{3};

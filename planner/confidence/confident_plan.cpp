@@ -114,7 +114,7 @@ class ConfidentPlanner {
 
  private:
   Plan plan_with(const Margins& margins, PlanOptions options) const {
-    options.limit_shares = margins.limit_shares();
+    options = with_limit_shares(std::move(options), margins.limit_shares());
     options.path_bound = false;  // of the mission as asked: plan_mission() adds it
     MissionWorld world = world_;
     world.robot.battery.reserve_fraction += margins.reserve;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/battery_charge.hpp"
 #include "model/battery_power.hpp"
@@ -55,6 +56,15 @@ void leave_margins(ProfileRequest& request, const LimitShares& shares) {
 }
 
 }  // namespace
+
+PlanOptions with_limit_shares(PlanOptions options, LimitShares shares) {
+  options.limit_shares = std::move(shares);
+  if (options.limit_shares.empty()) return options;
+  ByteWriter writer;
+  writer(options.answers.world.first, options.answers.world.second, options.limit_shares);
+  options.answers.world = content_key(writer.bytes());
+  return options;
+}
 
 Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
   Limits limits = limits_between_payloads(robot, payload.from_kg, payload.to_kg);

@@ -59,14 +59,15 @@ jp.draw_front = function (data) {
   const others = (data.front.baselines || []).filter((one) => one.feasible !== false && is_number(one.energy_J));
   const span_s = points.length ? points[points.length - 1].duration_s - points[0].duration_s : 0;
   const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones are shown in the table only
-  const names = [...new Set(near.map((one) => one.name))];
-  const x = [...new Set([...points, ...near].map((one) => one.duration_s))].sort((a, b) => a - b);
+  const names = [...new Set(near.map((one) => one.name))], sure = (data.front.confidence || {}).points || [];
+  const x = [...new Set([...points, ...near, ...sure].map((one) => one.duration_s))].sort((a, b) => a - b);
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && is_number(one[key]) ? one[key] : null; });
   const cursor = jp.cursor(x.length, (row) => {
     const one = points.find((entry) => entry.duration_s === x[row]);
     return `${number(x[row])} s` + (one ? ` · ${with_unit(one.energy_J, "J")}` + (is_number(one.price_of_time_W) ? ` · value of a second ${with_unit(one.price_of_time_W, "W")}` : "") : "");
   });
   const make = (title, key) => jp.plot({title, unit: "J", x: () => x, x_label: () => "duration, s", cursor, tall: true, fitted: true, series: [{name: "optimal", values: find(points, key), color: "plan", points: 3},
+    ...(sure.length ? [{name: `kept with ${percent(100 * data.front.confidence.asked, 4)}`, values: find(sure, key), color: "limit", points: 2}] : []),
     ...names.map((name, k) => ({name: words(name), values: find(near.filter((one) => one.name === name), key), ...look_beside(k), points: 2}))]});
   const plots = [make("Energy at the battery, with standby", "energy_J")];
   if (points.some((one) => is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
