@@ -28,16 +28,6 @@ double aim_for(double confidence, std::size_t draws) {
   return std::min(confidence + kDoubtSigmas * sigma, 1 - 2 / static_cast<double>(draws));
 }
 
-void need_uncertainty(const MissionRequest& mission, const Robot& robot) {
-  if (robot.model_energy_sigma()) return;
-  const bool none = robot.uncertainty.empty();
-  throw ConfigError({{mission.robot_file, 1, 1},
-                     none ? "uncertainty" : "uncertainty.model_energy",
-                     none ? "a robot without `uncertainty:`" : "no error of the model's energy",
-                     "with a confidence, the errors of the robot's constants and `model_energy`",
-                     "calibrate and diagnose write them"});
-}
-
 /// The mission whose legs follow the ways of a plan; the mission itself where it may insert stops.
 MissionRequest on_ways_of(const Plan& plan, const MissionRequest& mission) {
   MissionRequest given = mission;
@@ -284,6 +274,15 @@ class ConfidentPlanner {
 };
 
 }  // namespace
+
+void need_uncertainty(const MissionRequest& mission, const Robot& robot) {
+  if (!mission.objective.confidence || robot.model_energy_sigma()) return;
+  throw ConfigError({{mission.robot_file, 1, 1},
+                     robot.uncertainty.empty() ? "uncertainty" : "uncertainty.model_energy",
+                     "nothing, although the mission asks for a confidence",
+                     "relative 1-sigmas of the robot's constants, and model_energy among them",
+                     "calibrate and diagnose measure them"});
+}
 
 Plan confident_plan(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                     const PlanOnce& plan_once) {

@@ -11,12 +11,15 @@ namespace joulepath {
 /// Plans a mission without regard to its `objective.confidence`.
 using PlanOnce = std::function<Plan(const MissionRequest&, const MissionWorld&, const PlanOptions&)>;
 
+/// Throws ConfigError where a mission asks for a confidence and the robot states no `uncertainty:`, or no
+/// `model_energy` in it.
+void need_uncertainty(const MissionRequest& mission, const Robot& robot);
+
 /// A plan that keeps its deadlines, the battery's reserve and the limits of motors, battery and tires
 /// together with the mission's confidence, for robots drawn from the file's `uncertainty:`. Where the plan
 /// without margins does not keep them, its ways are driven again with margins: the joint quantile of the
 /// draws' demands, found anew for each plan until it stays. Fresh draws then decide. A mission that cannot be
-/// planned with the margins is a verdict.
-/// Throws ConfigError where the robot states no `uncertainty:` or no `model_energy` in it.
+/// planned with the margins is a verdict. Throws ConfigError as need_uncertainty() does.
 [[nodiscard]] Plan confident_plan(const MissionRequest& mission, const MissionWorld& world,
                                   const PlanOptions& options, const PlanOnce& plan_once);
 

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "model/limit_table.hpp"
+#include "planner/confidence/confident_plan.hpp"
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
@@ -47,6 +48,7 @@ MissionWorld read_world(const MissionRequest& request, const ReadOptions& option
   const Robot used = robot ? *robot : read_robot(request.robot_file, named_by);
   check_payloads(request, used);
   check_footprint(request, used);
+  need_uncertainty(request, used);
   return read_named_files(request, options, &used);
 }
 
