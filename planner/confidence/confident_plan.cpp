@@ -88,8 +88,8 @@ class ConfidentPlanner {
     if (is_shown(sample.kept, draws_, confidence_)) return with_account(std::move(plain), sample);
     given_ = on_ways_of(plain, mission_);
     for (int trial = 0; trial < kSamples; ++trial) {
-      if (auto refused = find_margins(plain, std::move(sample)))
-        return as_verdict(std::move(*refused), plain);
+      if (const auto refused = find_margins(plain, std::move(sample)))
+        if (!is_too_late(*refused) || !take_margins_of_fastest()) return as_verdict(*refused, plain);
       Plan plan = plan_with(margins_, options_);
       if (plan.status > SolveStatus::feasible) return as_verdict(std::move(plan), plain);
       sample = fresh_sample(plan);
@@ -113,9 +113,6 @@ class ConfidentPlanner {
 
   /// Margins with which a plan keeps the aimed share of one sample; a verdict where no plan leaves them.
   std::optional<Plan> find_margins(const Plan& plain, Sample sample) {
-    PlanOptions quick = options_;
-    quick.solver = SolverChoice::fast;
-    quick.baselines = false;
     const std::uint64_t seed = seed_;
     Plan plan = plain;
     double aim = aim_;
@@ -125,10 +122,35 @@ class ConfidentPlanner {
       if (round > 0 && share >= aim_ && share <= aim_ + kClose) return std::nullopt;
       if (round > 0 && share < aim_) aim = std::min(1.0, aim + (aim_ - share));
       margins_ = margins_for(sample.drawn, sample.nominal, reserve(), aim);
-      plan = plan_with(margins_, quick);
+      plan = plan_with(margins_, quick());
       if (plan.status > SolveStatus::feasible) return plan;
     }
     return std::nullopt;
+  }
+
+  static bool is_too_late(const Plan& plan) {
+    return plan.infeasibility && plan.infeasibility->reason.constraint == "deadline";
+  }
+
+  /// The margins of the fastest drive on these ways that keeps the confidence, for a deadline near its time;
+  /// false where there is none. The draws that judged it are the next ones that judge here.
+  bool take_margins_of_fastest() {
+    MissionRequest fastest = given_;
+    fastest.objective = {.minimize = Objective::Minimize::time, .confidence = confidence_};
+    for (LegRequest& leg : fastest.legs) leg.deadline_s.reset();
+    ConfidentPlanner planner(fastest, world_, quick(), plan_once_);
+    if (planner.plan().status > SolveStatus::feasible) return false;
+    margins_ = planner.margins_;
+    seed_ = planner.seed_ - 1;
+    return true;
+  }
+
+  /// Options of plans that only serve to find margins.
+  PlanOptions quick() const {
+    PlanOptions options = options_;
+    options.solver = SolverChoice::fast;
+    options.baselines = options.path_bound = false;
+    return options;
   }
 
   double reserve() const { return world_.robot.battery.reserve_fraction; }
@@ -261,7 +283,7 @@ class ConfidentPlanner {
 
   const MissionRequest& mission_;
   const MissionWorld& world_;
-  const PlanOptions& options_;
+  PlanOptions options_;
   const PlanOnce& plan_once_;
   Plant plant_;
   double confidence_;

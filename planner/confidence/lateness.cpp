@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSaturated = 1 + 1e-6;  ///< use of a limit
 constexpr int kHalvings = 20;
+constexpr int kSteps = 8;  ///< of a segment of the profile
 
 /// One stretch, driven by another plant.
 class SaturatedDrive {
@@ -21,7 +22,7 @@ class SaturatedDrive {
   /// The greatest acceleration, at most the wanted one, from a squared rate over a distance of s.
   double acceleration(double s, double ds, double square, double wanted) const {
     if (wanted < 0 || holds(s, ds, square, wanted)) return wanted;
-    double low = -0.5 * square / ds, high = wanted;
+    double low = gentle(s, ds, square), high = wanted;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
       (holds(s, ds, square, middle) ? low : high) = middle;
@@ -30,6 +31,17 @@ class SaturatedDrive {
   }
 
  private:
+  /// An acceleration of at most 0 that saturates nothing: none, or the least braking in powers of two; a stop
+  /// where all of them do.
+  double gentle(double s, double ds, double square) const {
+    constexpr double kLeast = 0x1p-12;
+    const double stop = -0.5 * square / ds;
+    if (holds(s, ds, square, 0)) return 0;
+    for (double share = kLeast; share < 1; share *= 2)
+      if (holds(s, ds, square, share * stop)) return share * stop;
+    return stop;
+  }
+
   bool holds(double s, double ds, double square, double acceleration) const {
     const double rate = std::sqrt(std::max(0.0, square + acceleration * ds));
     bool all = true;
@@ -53,16 +65,18 @@ double lateness_s(const StretchPlan& stretch, const Plant& plant, const Limits& 
   const Profile& profile = stretch.profile;
   double square = profile.rate.front() * profile.rate.front(), late_s = 0;
   for (std::size_t k = 0; k + 1 < profile.s.size(); ++k) {
-    const double ds = profile.s[k + 1] - profile.s[k];
+    const double ds = (profile.s[k + 1] - profile.s[k]) / kSteps;
     if (ds <= 0) continue;
-    const double before = profile.rate[k] * profile.rate[k],
-                 target = profile.rate[k + 1] * profile.rate[k + 1];
-    const double wanted = (target - square) / (2 * ds);
-    const double next = std::min(std::max(target, square),
-                                 square + 2 * ds * drive.acceleration(profile.s[k], ds, square, wanted));
-    if (square <= 0 && next <= 0) return kNoLimit;
-    late_s += segment_s(ds, square, std::max(0.0, next)) - segment_s(ds, before, target);
-    square = std::max(0.0, next);
+    const double first = profile.rate[k] * profile.rate[k], last = profile.rate[k + 1] * profile.rate[k + 1];
+    const auto planned = [&](int step) { return first + (last - first) * step / kSteps; };
+    for (int step = 0; step < kSteps; ++step) {
+      const double target = planned(step + 1), wanted = (target - square) / (2 * ds);
+      const double a = drive.acceleration(profile.s[k] + step * ds, ds, square, wanted);
+      const double next = std::clamp(square + 2 * ds * a, 0.0, std::max(target, square));
+      if (square <= 0 && next <= 0) return kNoLimit;
+      late_s += segment_s(ds, square, next) - segment_s(ds, planned(step), target);
+      square = next;
+    }
   }
   return std::max(0.0, late_s);
 }
