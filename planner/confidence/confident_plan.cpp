@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kDraws = 4000;  ///< of one sample; more where the confidence is near 1
 constexpr double kFailuresSeen = 30;  ///< draws that fail at the asked confidence, at least
 constexpr int kRounds = 5, kSamples = 4;
+constexpr double kNear = 0.02;        ///< error of a share by derivatives, by far
 constexpr double kClose = 0.006;      ///< share of draws that a plan may keep beyond its aim
 constexpr double kDoubtSigmas = 2.4;  ///< of a sample's share, between what is asked and what is aimed at
 
@@ -83,12 +84,16 @@ class ConfidentPlanner {
                 .draws = draws_,
                 .energy_without_J = plain.energy.total_J(),
                 .duration_without_s = plain.duration_s};
-    Sample sample = fresh_sample(plain);
+    Sample sample = estimated_sample(plain);
     account_.kept_without = sample.share();
-    if (is_shown(sample.kept, draws_, confidence_)) return with_account(std::move(plain), sample);
+    if (sample.share() >= confidence_ - kNear) {
+      const Sample judged = fresh_sample(plain);
+      account_.kept_without = judged.share();
+      if (is_shown(judged.kept, draws_, confidence_)) return with_account(std::move(plain), judged);
+    }
     given_ = on_ways_of(plain, mission_);
     for (int trial = 0; trial < kSamples; ++trial) {
-      if (const auto refused = find_margins(plain, std::move(sample)))
+      if (const auto refused = find_margins(plain))
         if (!is_too_late(*refused) || !take_margins_of_fastest()) return as_verdict(*refused, plain);
       Plan plan = plan_with(margins_, options_);
       if (plan.status > SolveStatus::feasible) return as_verdict(std::move(plan), plain);
@@ -112,15 +117,14 @@ class ConfidentPlanner {
   }
 
   /// Margins with which a plan keeps the aimed share of one sample; a verdict where no plan leaves them.
-  std::optional<Plan> find_margins(const Plan& plain, Sample sample) {
-    const std::uint64_t seed = seed_;
+  std::optional<Plan> find_margins(const Plan& plain) {
     Plan plan = plain;
     double aim = aim_;
     for (int round = 0; round < kRounds; ++round) {
-      if (round > 0) sample = sample_of(plan, seed);
+      const Sample sample = estimated_sample(plan);
       const double share = sample.share();
       if (round > 0 && share >= aim_ && share <= aim_ + kClose) return std::nullopt;
-      if (round > 0 && share < aim_) aim = std::min(1.0, aim + (aim_ - share));
+      if (round > 0) aim = std::clamp(aim + aim_ - share, confidence_, 1.0);
       margins_ = margins_for(sample.drawn, sample.nominal, reserve(), aim);
       plan = plan_with(margins_, quick());
       if (plan.status > SolveStatus::feasible) return plan;
@@ -163,18 +167,29 @@ class ConfidentPlanner {
              .to_fraction = mission_.charging ? mission_.charging->to_fraction : 0.0}};
   }
 
-  Sample sample_of(const Plan& plan, std::uint64_t seed) const {
+  /// What draws make of a plan, by derivatives. All plans see the same draws, which judge none of them.
+  Sample estimated_sample(const Plan& plan) const {
     const PlanDemands demands = demands_of(plan);
+    PlantDraws draws(plant_, 0);
+    return sample_of(demands, [&] { return demands.estimate(draws.next_sigmas()); });
+  }
+
+  /// What draws that shaped no plan make of one, by the model.
+  Sample fresh_sample(const Plan& plan) {
+    const PlanDemands demands = demands_of(plan);
+    PlantDraws draws(plant_, ++seed_);
+    return sample_of(demands, [&] { return demands.of(draws.next()); });
+  }
+
+  template <class Next>
+  Sample sample_of(const PlanDemands& demands, Next&& next) const {
     Sample sample{.nominal = demands.nominal()};
-    PlantDraws draws(plant_, seed);
     for (std::size_t i = 0; i < draws_; ++i) {
-      sample.drawn.push_back(demands.of(draws.next()));
-      const PlanDemand& demand = sample.drawn.back();
+      const PlanDemand& demand = sample.drawn.emplace_back(next());
       sample.kept += keeps_limits(demand) && keeps_reserve(demand, reserve()) ? 1 : 0;
     }
     return sample;
   }
-  Sample fresh_sample(const Plan& plan) { return sample_of(plan, ++seed_); }
 
   /// Whether a draw that saturates arrives in time at every stop with a deadline.
   bool arrives(const Plan& plan, const PlanDemands& demands, const PlantDraw& draw) const {

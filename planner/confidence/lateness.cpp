@@ -9,8 +9,8 @@ namespace joulepath {
 namespace {
 
 constexpr double kSaturated = 1 + 1e-6;  ///< use of a limit
-constexpr int kHalvings = 20;
-constexpr int kSteps = 8;  ///< of a segment of the profile
+constexpr int kHalvings = 14;
+constexpr int kSteps = 4;  ///< of a segment of the profile
 
 /// One stretch, driven by another plant.
 class SaturatedDrive {

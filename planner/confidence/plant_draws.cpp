@@ -17,27 +17,28 @@ PlantDraws::PlantDraws(const Plant& plant, std::uint64_t seed)
       factor_(cholesky_factor(nuisance_correlation(plant.robot)).value()),
       random_(seed) {}
 
-std::vector<double> PlantDraws::sigmas() {
-  std::vector<double> sigmas;
-  const auto is_too_low = [&] {
-    for (std::size_t i = 0; i < nuisances_.size(); ++i)
-      if (1 + nuisances_[i].sigma * sigmas[i] < kLeastShare) return true;
-    return false;
-  };
+bool PlantDraws::is_too_low(const Eigen::VectorXd& sigmas) const {
+  for (std::size_t i = 0; i < nuisances_.size(); ++i)
+    if (1 + nuisances_[i].sigma * sigmas[static_cast<Eigen::Index>(i)] < kLeastShare) return true;
+  return false;
+}
+
+Eigen::VectorXd PlantDraws::next_sigmas() {
+  const auto count = static_cast<Eigen::Index>(nuisances_.size());
+  Eigen::VectorXd independent(count), sigmas(count + 1);
   do {
-    Eigen::VectorXd independent(static_cast<Eigen::Index>(nuisances_.size()));
     for (double& value : independent) value = normal_(random_);
-    const Eigen::VectorXd correlated = factor_ * independent;
-    sigmas.assign(correlated.begin(), correlated.end());
-  } while (is_too_low());
+    sigmas.head(count) = factor_ * independent;
+  } while (is_too_low(sigmas));
+  sigmas[count] = normal_(random_);
   return sigmas;
 }
 
 PlantDraw PlantDraws::next() {
-  PlantDraw draw{.plant = plant_, .sigmas = sigmas()};
+  PlantDraw draw{.plant = plant_, .sigmas = next_sigmas()};
   for (std::size_t i = 0; i < nuisances_.size(); ++i)
-    draw.plant = with_error(std::move(draw.plant), nuisances_[i], nuisances_[i].sigma * draw.sigmas[i]);
-  draw.sigmas.push_back(normal_(random_));
+    draw.plant = with_error(std::move(draw.plant), nuisances_[i],
+                            nuisances_[i].sigma * draw.sigmas[static_cast<Eigen::Index>(i)]);
   return draw;
 }
 

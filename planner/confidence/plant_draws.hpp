@@ -11,7 +11,7 @@ namespace joulepath {
 /// A plant as it may be.
 struct PlantDraw {
   Plant plant{};
-  std::vector<double> sigmas{};  ///< errors in sigmas: of nuisances_of(robot), then of the model itself
+  Eigen::VectorXd sigmas{};  ///< errors in sigmas: of nuisances_of(robot), then of the model itself
 };
 
 /// Plants drawn from the errors that a robot file states (`uncertainty:`), with their correlations. Each
@@ -22,11 +22,12 @@ class PlantDraws {
  public:
   PlantDraws(const Plant& plant, std::uint64_t seed);
 
+  /// Errors of the next draw, in sigmas.
+  [[nodiscard]] Eigen::VectorXd next_sigmas();
   [[nodiscard]] PlantDraw next();
 
  private:
-  /// The errors of the constants, in sigmas.
-  std::vector<double> sigmas();
+  bool is_too_low(const Eigen::VectorXd& sigmas) const;
 
   const Plant& plant_;
   std::vector<Nuisance> nuisances_{};
