@@ -1,10 +1,16 @@
 #include "diagnosis/calibration/calibrated_robot.hpp"
 
-#include <cmath>
+#include <set>
 
 #include "model/dynamics.hpp"
+#include "model/nuisance.hpp"
 
 namespace joulepath::calibration {
+namespace {
+
+const std::set<std::string> kInherited{"chassis_mass_kg", "wheel_mass_kg", "half_track_m", "wheel_radius_m"};
+
+}  // namespace
 
 DerivedInertia derived_inertia(const Robot& robot, const FitValues& values) {
   const double r = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right);
@@ -15,25 +21,19 @@ DerivedInertia derived_inertia(const Robot& robot, const FitValues& values) {
   return {axle, (values[kTurningInertia] - axle) * 2 * l * l / (r * r) - around_kg_m2};
 }
 
-DerivedInertia geometric_deviation(const Robot& robot, const FitValues& values) {
+std::vector<InheritedError> inherited_errors(const Robot& robot, const FitValues& values) {
   const DerivedInertia here = derived_inertia(robot, values);
-  DerivedInertia squares{};
-  const auto add = [&](const char* key, const auto& change) {
-    const auto at = robot.uncertainty.find(key);
-    if (at == robot.uncertainty.end()) return;
+  std::vector<InheritedError> errors;
+  for (const Nuisance& nuisance : nuisances_of(robot)) {
+    if (!kInherited.contains(nuisance.key)) continue;
     Robot other = robot;
-    change(other, 1 + at->second);
+    apply_nuisance(nuisance, nuisance.sigma, other);
     const DerivedInertia there = derived_inertia(other, values);
-    squares.wheel_axle_kg_m2 += std::pow(there.wheel_axle_kg_m2 - here.wheel_axle_kg_m2, 2);
-    squares.chassis_yaw_kg_m2 += std::pow(there.chassis_yaw_kg_m2 - here.chassis_yaw_kg_m2, 2);
-  };
-  add("chassis_mass_kg", [](Robot& other, double factor) { other.inertia.chassis_mass_kg *= factor; });
-  add("wheel_mass_kg", [](Robot& other, double factor) { other.inertia.wheel_mass_kg *= factor; });
-  add("half_track_m", [](Robot& other, double factor) { other.geometry.half_track_m *= factor; });
-  add("wheel_radius_m", [](Robot& other, double factor) {
-    for (Side side : kSides) other.geometry.wheel_radius_m[side] *= factor;
-  });
-  return {std::sqrt(squares.wheel_axle_kg_m2), std::sqrt(squares.chassis_yaw_kg_m2)};
+    errors.push_back(
+        {nuisance.key,
+         {there.wheel_axle_kg_m2 - here.wheel_axle_kg_m2, there.chassis_yaw_kg_m2 - here.chassis_yaw_kg_m2}});
+  }
+  return errors;
 }
 
 Robot robot_with(const Robot& robot, const FitValues& values) {

@@ -11,8 +11,14 @@ struct DerivedInertia {
 };
 [[nodiscard]] DerivedInertia derived_inertia(const Robot& robot, const FitValues& values);
 
-/// Standard deviations of both inertias that the uncertainty of masses and lengths in the robot file causes.
-[[nodiscard]] DerivedInertia geometric_deviation(const Robot& robot, const FitValues& values);
+/// What one sigma of a mass or length in the robot file changes both inertias by.
+struct InheritedError {
+  std::string key{};
+  DerivedInertia change{};
+};
+
+/// Of the keys that the file's `uncertainty:` states.
+[[nodiscard]] std::vector<InheritedError> inherited_errors(const Robot& robot, const FitValues& values);
 
 /// The robot with the fitted values. Inertias that would be negative, or that depend on a parameter that was
 /// not fitted, keep the value of the robot file.

@@ -8,6 +8,9 @@
 #include "diagnosis/calibration/identifiability.hpp"
 #include "diagnosis/calibration/resampling.hpp"
 #include "diagnosis/calibration/steady.hpp"
+#include "diagnosis/calibration/written_errors.hpp"
+#include "diagnosis/estimation/model_energy.hpp"
+#include "model/nuisance_correlation.hpp"
 
 namespace joulepath {
 namespace {
@@ -64,14 +67,19 @@ FitValues without_bounds(FitValues lower) {
   return lower;
 }
 
+std::vector<int> indices_of(const FreeParameters& free) {
+  std::vector<int> index;
+  for (int p = 0; p < kFitParameters; ++p)
+    if (free[static_cast<std::size_t>(p)]) index.push_back(p);
+  return index;
+}
+
 /// Effective number of units for each parameter: (sum h)^2 / sum h^2, where h is a unit's part of the
 /// information.
 std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& units, const FitSums& all,
                                                    const FitWeights& weights, const FitValues& values,
                                                    const FreeParameters& free) {
-  std::vector<int> index;
-  for (int p = 0; p < kFitParameters; ++p)
-    if (free[static_cast<std::size_t>(p)]) index.push_back(p);
+  const std::vector<int> index = indices_of(free);
   const Eigen::MatrixXd inverse = information(all, weights, values)(index, index).inverse();
   std::array<double, kFitParameters> sum{}, squares{}, count{};
   for (const FitSums& unit : units) {
@@ -121,23 +129,15 @@ CalibratedParameter parameter_of(std::size_t p, double nominal, double value, do
   return parameter;
 }
 
-void write_uncertainty(const std::vector<CalibratedParameter>& parameters, Robot& robot) {
-  const auto relative = [&](const std::string& name) {
-    for (const CalibratedParameter& parameter : parameters)
-      if (parameter.name == name && parameter.visibility != Visibility::unseen && parameter.value > 0)
-        return parameter.standard_deviation / parameter.value;
-    return 0.0;
-  };
-  const auto set = [&](const std::string& key, double value) {
-    if (value > 0) robot.uncertainty[key] = value;
-  };
-  set("friction_torque_Nm",
-      std::max(relative("friction_torque_left_Nm"), relative("friction_torque_right_Nm")));
-  set("viscous_friction_Nm_s_rad", relative("viscous_friction_Nm_s_rad"));
-  set("resistance_ohm", relative("resistance_ohm"));
-  set("torque_constant_Nm_A", relative("torque_per_ampere_Nm_A"));
-  set("wheel_axle_inertia_kg_m2", relative("wheel_axle_inertia_kg_m2"));
-  set("chassis_yaw_inertia_kg_m2", relative("chassis_yaw_inertia_kg_m2"));
+/// Keys of the robot file and the reported values that they hold.
+std::vector<WrittenKey> written_keys() {
+  constexpr std::size_t kAxle = kFitParameters, kYaw = kFitParameters + 1;
+  return {{"friction_torque_Nm", {kFrictionLeft, kFrictionRight}},
+          {"viscous_friction_Nm_s_rad", {kViscous, kViscous}},
+          {"resistance_ohm", {kResistance, kResistance}},
+          {"torque_constant_Nm_A", {kTorquePerAmpere, kTorquePerAmpere}},
+          {"wheel_axle_inertia_kg_m2", {kAxle, kAxle}},
+          {"chassis_yaw_inertia_kg_m2", {kYaw, kYaw}}};
 }
 
 void hold(CalibratedParameter& parameter, const std::string& why) {
@@ -157,26 +157,69 @@ struct Fit {
 
 std::string blocks_text() { return "blocks of " + std::to_string(kBlock_s) + " s"; }
 
-/// Standard deviations of the reported values: a jackknife over the units, NaN from too few, with the
-/// uncertainty of the robot's geometry.
-std::vector<double> deviations_of(const Robot& robot, const std::vector<FitSums>& units, const Fit& fit,
-                                  const FitValues& unbounded,
-                                  const std::array<double, kFitParameters>& effective) {
-  std::vector<double> deviation(kFitParameters + kDerived, std::nan(""));
-  if (units.size() >= kFewestUnits)
-    deviation =
-        jackknife(units.size(), [&](std::size_t left_out) {
-          FitSums rest = fit.all;
-          rest -= units[left_out];
-          return reported(robot,
-                          fit_full(rest, fit.weights, nominal_values(robot), unbounded, fit.can.free).values);
-        }).standard_deviation;
-  for (std::size_t p = 0; p < deviation.size(); ++p)
-    deviation[p] *= leverage_correction(effective[source_of(p)], units.size());
-  const DerivedInertia from_geometry = geometric_deviation(robot, fit.result.values);
-  deviation[kFitParameters] = std::hypot(deviation[kFitParameters], from_geometry.wheel_axle_kg_m2);
-  deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
-  return deviation;
+/// Derivatives of the reported values, which are linear in the fitted ones.
+Eigen::MatrixXd reported_by_fitted(const Robot& robot, const FitValues& values) {
+  const auto vector_of = [&](const FitValues& at) {
+    const std::vector<double> all = reported(robot, at);
+    return Eigen::VectorXd(Eigen::VectorXd::Map(all.data(), std::ssize(all)));
+  };
+  const Eigen::VectorXd here = vector_of(values);
+  Eigen::MatrixXd slopes(here.size(), kFitParameters);
+  for (int p = 0; p < kFitParameters; ++p) {
+    FitValues moved = values;
+    moved[static_cast<std::size_t>(p)] += 1;
+    slopes.col(p) = vector_of(moved) - here;
+  }
+  return slopes;
+}
+
+/// Covariance of the reported values for independent residuals; zero for what is not fitted.
+Eigen::MatrixXd covariance_of_samples(const Robot& robot, const Fit& fit) {
+  const std::vector<int> index = indices_of(fit.can.free);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFitParameters, kFitParameters);
+  const Eigen::MatrixXd free = information(fit.all, fit.weights, fit.result.values)(index, index);
+  covariance(index, index) = Eigen::MatrixXd(free.inverse());
+  const Eigen::MatrixXd slopes = reported_by_fitted(robot, fit.result.values);
+  return slopes * covariance * slopes.transpose();
+}
+
+/// Correlation of the reported values from how runs differ. A few runs do not determine it: that of the
+/// samples' residuals counts as much as one run per parameter, so the matrix has full rank.
+Eigen::MatrixXd correlation_of_runs(const Robot& robot, const Fit& fit, const Resampled& runs,
+                                    std::size_t units) {
+  const auto n = static_cast<double>(units), p = static_cast<double>(indices_of(fit.can.free).size());
+  return (n * correlation_of(runs.covariance) + p * correlation_of(covariance_of_samples(robot, fit))) /
+         (n + p);
+}
+
+/// Errors of the reported values: a jackknife over the units, NaN from too few, with the errors of the
+/// robot's masses and lengths.
+FittedErrors errors_of(const Robot& robot, const std::vector<FitSums>& units, const Fit& fit,
+                       const FitValues& unbounded, const std::array<double, kFitParameters>& effective) {
+  constexpr std::size_t kReported = kFitParameters + kDerived;
+  if (units.size() < kFewestUnits) return {.deviation = std::vector<double>(kReported, std::nan(""))};
+  const Resampled runs = jackknife(units.size(), [&](std::size_t left_out) {
+    FitSums rest = fit.all;
+    rest -= units[left_out];
+    return reported(robot,
+                    fit_full(rest, fit.weights, nominal_values(robot), unbounded, fit.can.free).values);
+  });
+  Eigen::VectorXd deviation(kReported);
+  for (std::size_t p = 0; p < kReported; ++p)
+    deviation[static_cast<Eigen::Index>(p)] =
+        runs.standard_deviation[p] * leverage_correction(effective[source_of(p)], units.size());
+  const std::vector<InheritedError> inherited = inherited_errors(robot, fit.result.values);
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(kReported, std::ssize(inherited));
+  std::vector<std::string> keys;
+  for (const InheritedError& error : inherited) {
+    changes.block<kDerived, 1>(kFitParameters, std::ssize(keys)) << error.change.wheel_axle_kg_m2,
+        error.change.chassis_yaw_kg_m2;
+    keys.push_back(error.key);
+  }
+  return with_inherited(
+      robot,
+      deviation.asDiagonal() * correlation_of_runs(robot, fit, runs, units.size()) * deviation.asDiagonal(),
+      changes, std::move(keys));
 }
 
 /// A value at its lower bound: the interval is that of the fit without bounds, cut off at the bound.
@@ -193,8 +236,8 @@ void state_derivation(CalibratedParameter& parameter, bool of_wheels) {
   if (parameter.value < 0) hold(parameter, "negative with the robot file's masses and lengths");
 }
 
-void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
-                    const FitValues& lower, CalibrationResult& result) {
+FittedErrors add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
+                            const FitValues& lower, CalibrationResult& result) {
   const Robot& robot = dataset.robot;
   const FitValues nominal = nominal_values(robot);
   const FitValues unbounded = without_bounds(lower);
@@ -202,13 +245,14 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
     result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " runs or " + blocks_text() +
                            ": no intervals");
   const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
-  const std::vector<double> deviation = deviations_of(robot, units, fit, unbounded, effective);
+  FittedErrors errors = errors_of(robot, units, fit, unbounded, effective);
   const std::vector<double> center =
       reported(robot, fit_full(fit.all, fit.weights, nominal, unbounded, fit.can.free).values);
   const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
   for (std::size_t p = 0; p < after.size(); ++p) {
     const std::size_t source = source_of(p);
-    CalibratedParameter parameter = parameter_of(p, before[p], after[p], deviation[p], effective[source]);
+    CalibratedParameter parameter =
+        parameter_of(p, before[p], after[p], errors.deviation[p], effective[source]);
     if (!fit.can.free[source])
       hold(parameter, fit.can.why[source]);
     else if (fit.result.at_bound[source])
@@ -219,6 +263,15 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
       state_derivation(parameter, p == kFitParameters);
     result.parameters.push_back(parameter);
   }
+  return errors;
+}
+
+/// The robot that all runs but one give, whose sums these are.
+Robot robot_without(const Robot& robot, const Fit& fit, const FitValues& lower,
+                    const std::vector<FitSums>& of_run) {
+  FitSums rest = fit.all;
+  for (const FitSums& sums : of_run) rest -= sums;
+  return robot_with(robot, fit_full(rest, fit.weights, nominal_values(robot), lower, fit.can.free).values);
 }
 
 CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<SmoothedRun>& runs) {
@@ -248,8 +301,13 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
     result.voltage_rms_after_V = std::sqrt(voltage_mean_square_V2(fit.all, fit.result.values));
   }
   if (!fit.result.converged) result.notes.push_back("the solver stopped before it converged");
-  add_parameters(dataset, units, fit, lower, result);
-  write_uncertainty(result.parameters, result.robot);
+  const FittedErrors errors = add_parameters(dataset, units, fit, lower, result);
+  write_errors(result.parameters, written_keys(), errors, result.robot);
+  std::vector<HeldOutRun> held_out;
+  for (const SmoothedRun& run : runs)
+    held_out.push_back(
+        {dataset.runs[run.index], robot_without(robot, fit, lower, fit_sums(robot, {run}, 0, kBlock_s))});
+  result.notes.push_back(write_model_energy(held_out, result.robot));
   return result;
 }
 

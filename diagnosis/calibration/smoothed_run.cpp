@@ -164,9 +164,11 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
 
 std::vector<SmoothedRun> smooth_runs(const Dataset& dataset) {
   std::vector<SmoothedRun> runs;
-  for (const Run& run : dataset.runs)
-    if (std::optional<SmoothedRun> smooth = smoothed(run, dataset.robot.geometry))
+  for (std::size_t r = 0; r < dataset.runs.size(); ++r)
+    if (std::optional<SmoothedRun> smooth = smoothed(dataset.runs[r], dataset.robot.geometry)) {
       runs.push_back(*std::move(smooth));
+      runs.back().index = r;
+    }
   return runs;
 }
 

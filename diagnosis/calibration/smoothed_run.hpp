@@ -22,6 +22,7 @@ struct SmoothedSample {
 
 struct SmoothedRun {
   std::string name{};
+  std::size_t index{};  ///< in the dataset's runs
   bool has_voltage{};
   bool unsigned_currents{};  ///< current signs come from the motion; braking samples are left out
   SplineKernel kernel{};

@@ -5,6 +5,9 @@
 #include <set>
 
 #include "diagnosis/calibration/resampling.hpp"
+#include "diagnosis/calibration/written_errors.hpp"
+#include "diagnosis/estimation/model_energy.hpp"
+#include "model/nuisance_correlation.hpp"
 
 namespace joulepath::calibration {
 namespace {
@@ -120,23 +123,27 @@ Units units_of(const std::vector<SteadySegment>& segments) {
   return units;
 }
 
-/// T_m and nu are proportional to the robot file's Kt and inherit its relative uncertainty.
-std::vector<double> deviations_of(const Robot& robot, const std::vector<SteadySegment>& segments,
-                                  const Units& units, const std::vector<double>& values) {
-  std::vector<double> deviation(values.size(), std::nan(""));
-  if (units.count >= kFewestUnits)
-    deviation = jackknife(units.count, [&](std::size_t left_out) {
-                  std::vector<SteadySegment> rest;
-                  for (std::size_t i = 0; i < segments.size(); ++i)
-                    if (units.by_run ? segments[i].run != units.runs[left_out] : i != left_out)
-                      rest.push_back(segments[i]);
-                  return torques_Nm(robot, rest);
-                }).standard_deviation;
-  const auto of_constant = robot.uncertainty.find("torque_constant_Nm_A");
-  if (of_constant != robot.uncertainty.end())
-    for (std::size_t k = 0; k < values.size(); ++k)
-      deviation[k] = std::hypot(deviation[k], of_constant->second * values[k]);
-  return deviation;
+std::vector<double> torques_without(const Robot& robot, const std::vector<SteadySegment>& segments,
+                                    const Units& units, std::size_t left_out) {
+  std::vector<SteadySegment> rest;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (units.by_run ? segments[i].run != units.runs[left_out] : i != left_out) rest.push_back(segments[i]);
+  return torques_Nm(robot, rest);
+}
+
+/// T_m and nu are proportional to the robot file's Kt and inherit its relative error.
+FittedErrors errors_of(const Robot& robot, const std::vector<SteadySegment>& segments, const Units& units,
+                       const std::vector<double>& values) {
+  if (units.count < kFewestUnits) return {.deviation = std::vector<double>(values.size(), std::nan(""))};
+  const Resampled runs = jackknife(
+      units.count, [&](std::size_t left_out) { return torques_without(robot, segments, units, left_out); });
+  const std::string constant = "torque_constant_Nm_A";
+  const bool is_stated = may_correlate(robot, constant);
+  Eigen::MatrixXd changes(std::ssize(values), is_stated ? 1 : 0);
+  if (is_stated)
+    changes.col(0) = robot.uncertainty.at(constant) * Eigen::VectorXd::Map(values.data(), std::ssize(values));
+  return with_inherited(robot, runs.covariance, changes,
+                        is_stated ? std::vector{constant} : std::vector<std::string>{});
 }
 
 CalibratedParameter parameter_of(const Motor& motor, std::size_t k, double value, double deviation,
@@ -156,18 +163,26 @@ CalibratedParameter parameter_of(const Motor& motor, std::size_t k, double value
   return parameter;
 }
 
-/// Values that are not negative, with the greater relative deviation of both sides.
-void write_to(Robot& robot, const std::vector<double>& values, const std::vector<double>& deviation) {
-  double friction_deviation = 0, viscous_deviation = 0;
+/// Values that are not negative.
+void write_to(Robot& robot, const std::vector<double>& values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (values[k] < 0) continue;
     Motor& motor = robot.motor[side_of(k)];
     (is_coulomb(k) ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad) = values[k];
-    double& relative = is_coulomb(k) ? friction_deviation : viscous_deviation;
-    if (values[k] > 0) relative = std::max(relative, deviation[k] / values[k]);
   }
-  if (friction_deviation > 0) robot.uncertainty["friction_torque_Nm"] = friction_deviation;
-  if (viscous_deviation > 0) robot.uncertainty["viscous_friction_Nm_s_rad"] = viscous_deviation;
+}
+
+/// The runs with a robot that the others give; none where too few have steady segments.
+std::vector<HeldOutRun> held_out_runs(const Dataset& dataset, const std::vector<SteadySegment>& segments,
+                                      const Units& units) {
+  std::vector<HeldOutRun> held_out;
+  for (std::size_t k = 0; k < units.runs.size() && units.by_run; ++k) {
+    Robot robot = dataset.robot;
+    write_to(robot, torques_without(robot, segments, units, k));
+    for (const Run& run : dataset.runs)
+      if (run.name == units.runs[k]) held_out.push_back({run, robot});
+  }
+  return held_out;
 }
 
 }  // namespace
@@ -214,14 +229,17 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   result.resampled = units.by_run ? "runs" : "steady segments";
   if (units.count < kFewestUnits)
     result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " steady segments: no intervals");
-  const std::vector<double> values = torques_Nm(dataset.robot, result.segments),
-                            deviation = deviations_of(dataset.robot, result.segments, units, values);
+  const std::vector<double> values = torques_Nm(dataset.robot, result.segments);
+  const FittedErrors errors = errors_of(dataset.robot, result.segments, units, values);
   for (std::size_t k = 0; k < values.size(); ++k)
-    result.parameters.push_back(parameter_of(dataset.robot.motor[side_of(k)], k, values[k], deviation[k],
-                                             static_cast<double>(units.count)));
+    result.parameters.push_back(parameter_of(dataset.robot.motor[side_of(k)], k, values[k],
+                                             errors.deviation[k], static_cast<double>(units.count)));
   result.current_rms_before_A = current_rms_A(result.robot, result.segments);
-  write_to(result.robot, values, deviation);
+  write_to(result.robot, values);
+  write_errors(result.parameters, {{"friction_torque_Nm", {0, 2}}, {"viscous_friction_Nm_s_rad", {1, 3}}},
+               errors, result.robot);
   result.current_rms_after_A = current_rms_A(result.robot, result.segments);
+  result.notes.push_back(write_model_energy(held_out_runs(dataset, result.segments, units), result.robot));
   result.notes.push_back("constant speeds do not show inertias; R and Kt n are the robot file's");
   return result;
 }

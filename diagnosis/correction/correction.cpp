@@ -1,6 +1,26 @@
 #include "diagnosis/correction/correction.hpp"
 
+#include "diagnosis/estimation/model_energy.hpp"
+
 namespace joulepath {
+namespace {
+
+/// (measured - predicted)/predicted energy of the motion, of the held-out runs that measure it.
+std::vector<double> held_out_errors(const Examination& x, const JudgedModel& model) {
+  const std::vector<RunEnergy> energies = judged_energies(x, model);
+  std::vector<double> errors;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const RunSignals& run = model.signals[r];
+    const double standby_J = measures_motors(run) ? 0.0
+                                                  : x.dataset.robot.power.standby_W * run.period_s *
+                                                        static_cast<double>(run.size());
+    const double motion_J = energies[r].predicted_J - standby_J;
+    if (energies[r].measured_J != 0 && motion_J > 0) errors.push_back(-energies[r].gap_J() / motion_J);
+  }
+  return errors;
+}
+
+}  // namespace
 
 Correction correction_of(const Examination& x, const Validation& v) {
   if (v.judgment.verdict == Verdict::ambiguous && !v.judgment.named.empty())
@@ -13,7 +33,11 @@ Correction correction_of(const Examination& x, const Validation& v) {
       correction.instruments.push_back(setting_of(effect.candidate, effect.amplitude, x.dataset.robot));
     else
       physical = true;
-  if (physical) correction.robot = corrected_robot(x, *v.corrected);
+  if (!physical) return correction;
+  Robot robot = corrected_robot(x, *v.corrected);
+  write_constant_errors(v.errors, x.id.nuisances, *v.corrected, robot);
+  correction.notes = {write_model_energy(held_out_errors(x, v.model), robot)};
+  correction.robot = std::move(robot);
   return correction;
 }
 

@@ -170,6 +170,8 @@ void choose_correction(const Examination& x, double before, Validation& v) {
       if (!is_better(x, before, draft.model)) break;
       v.refused = x.refusal ? x.refusal(corrected_robot(x, draft.state)) : "";
       if (!v.refused.empty()) continue;
+      if (std::ranges::any_of(draft.state.nuisance_fraction, [](double moved) { return moved != 0; }))
+        v.errors = constant_errors(fitted, x.id.nuisances, x.dataset.robot);
       v.corrected = std::move(draft.state), v.model = std::move(draft.model);
       if (!all) keep_part(part, fitted, widens, v);
       return;

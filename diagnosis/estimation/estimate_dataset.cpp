@@ -2,42 +2,28 @@
 
 #include <cmath>
 
-#include "diagnosis/values/constant_payload.hpp"
-#include "model/motions.hpp"
+#include "diagnosis/estimation/run_motion.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 
 namespace joulepath {
 namespace {
 
-/// The motion of a run: its log, or its prescribed motion.
-Trajectory motion_of(const Run& run, const Robot& robot) {
-  const double payload_kg = constant_payload_kg(run);
-  if (run.motion) return timed_motion(robot, {*run.motion}, {.payload_kg = payload_kg}).trajectory;
-  Trajectory log = run.log;
-  if (log.payload_kg.empty()) log.payload_kg.assign(log.size(), payload_kg);
-  return log;
-}
-
-RunEstimate estimate_run(const Run& run, const Robot& robot, const Plant& plant, EstimateOptions options) {
+RunEstimate estimate_run(const Run& run, const Robot& robot, const Plant& plant,
+                         const EstimateOptions& options) {
   RunEstimate result{.name = run.name};
-  const double efficiency = robot.power.regeneration_efficiency;
   try {
-    const Trajectory motion = motion_of(run, robot);
-    options.time_of_day_s = run.start_time_s.value_or(0.0);
-    if (run.motion) options.reach_s = 0.0;
-    result.estimate = estimate_energy(plant, motion, options);
-    result.sigma_J = energy_sigma_J(robot, motion, options);
+    const RunMotion motion = run_motion(run, robot, options);
+    result.estimate = estimate_energy(plant, motion.trajectory, motion.options);
+    result.sigma_J = energy_sigma_J(robot, motion.trajectory, motion.options);
   } catch (const ConfigError& error) {
     ConfigError::Detail detail = error.detail();
     detail.mark = run.mark;
     throw ConfigError(detail);
   }
   result.terminals_J = result.estimate.by_cause.total_J();
-  result.measured_motor_J = run.motion ? run.measured_energy_J : measured_motor_energy_J(run.log, efficiency);
-  if (run.battery_energy_Wh) result.measured_battery_J = kJoulesPerWh * *run.battery_energy_Wh;
-  if (!run.motion && !result.measured_battery_J)
-    result.measured_battery_J = measured_battery_energy_J(run.log);
+  const MeasuredEnergy measured = measured_energy(run, robot);
+  result.measured_motor_J = measured.motor_J, result.measured_battery_J = measured.battery_J;
   const auto relative = [](double estimated_J, double measured_J) {
     return measured_J != 0 ? std::optional(estimated_J / measured_J - 1) : std::nullopt;
   };

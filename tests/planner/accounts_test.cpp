@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "model/motions.hpp"
+#include "model/nuisance_correlation.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/accounts/stretch_account.hpp"
+#include "planner/legs/prescribed_leg.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -58,6 +60,40 @@ TEST(PlanAccounts, APrescribedMotionSharesTheUncertainty) {
   const double sigma_J = 0.1 * robot.power.standby_W * (leg.duration_s + leg.dwell_s);
   ASSERT_TRUE(plan.energy_sigma_J);
   EXPECT_NEAR(*plan.energy_sigma_J, sigma_J, 1e-6 * sigma_J);
+}
+
+/// Errors of friction that a fit cannot tell from viscous friction cancel in the energy; the variance is the
+/// quadratic form of the changes per sigma with the correlation matrix, for the plan and for a leg.
+TEST(PlanAccounts, CorrelatedErrorsAddAsTheirCovariance) {
+  Robot robot = testing::nomad();
+  robot.uncertainty = {
+      {"friction_torque_Nm", 0.02}, {"viscous_friction_Nm_s_rad", 0.9}, {"resistance_ohm", 0.02}};
+  PrescribedMotion motion{.profile = MotionProfile::trapezoid};
+  motion.speed_m_s = 0.5, motion.distance_m = 4, motion.acceleration_m_s2 = 0.3;
+  LegPlan leg;
+  leg.prescribed = timed_motion(robot, {motion}).trajectory;
+  leg.duration_s = leg.prescribed->time_s.back();
+  Plan plan;
+  plan.legs = {leg, leg};
+  const auto sigma_with = [&](const std::vector<Correlation>& pairs) {
+    robot.uncertainty_correlations = pairs;
+    find_energy_sigmas(plan, uncertain(make_plant(robot)));
+    EXPECT_NEAR(*plan.legs[0].energy_sigma_J, 0.5 * *plan.energy_sigma_J, 1e-9 * *plan.energy_sigma_J);
+    return *plan.energy_sigma_J;
+  };
+  const double independent_J = sigma_with({});
+  const double together_J = sigma_with({{"friction_torque_Nm", "viscous_friction_Nm_s_rad", 0.8}});
+  const double against_J = sigma_with({{"friction_torque_Nm", "viscous_friction_Nm_s_rad", -0.8}});
+  EXPECT_LT(against_J, 0.8 * independent_J);
+  EXPECT_GT(together_J, 1.1 * independent_J);
+  // Left and right friction share the error of viscous friction: their correlation is 0.8^2 in both cases.
+  const UncertainPlant plant = uncertain(make_plant(robot));
+  const Eigen::MatrixXd correlation = nuisance_correlation(robot);
+  Eigen::VectorXd shifts_J(std::ssize(plant.shifted));
+  for (std::size_t k = 0; k < plant.shifted.size(); ++k)
+    shifts_J[static_cast<Eigen::Index>(k)] = prescribed_energy(leg, plant.shifted[k][0]).total_J() -
+                                             prescribed_energy(leg, plant.shifted[k][1]).total_J();
+  EXPECT_NEAR(against_J, std::sqrt(shifts_J.dot(correlation * shifts_J)), 1e-6 * against_J);
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "diagnosis/correction/constant_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/nuisance_correlation.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A key of the robot file, its greater sigma, and its rows among the errors.
+struct KeyedError {
+  double sigma{};
+  Sided<Eigen::Index> row{};
+};
+
+/// Both sides of a key that has one error are the same row.
+std::map<std::string, KeyedError> errors_by_key(const ConstantErrors& errors,
+                                                const std::vector<Nuisance>& nuisances,
+                                                const ModelState& state) {
+  std::map<std::string, KeyedError> by_key;
+  for (Eigen::Index row = 0; row < errors.deviation.size(); ++row) {
+    const std::size_t k = errors.nuisances[static_cast<std::size_t>(row)];
+    KeyedError& error = by_key[nuisances[k].key];
+    error.sigma = std::max(error.sigma, errors.deviation[row] / (1 + state.nuisance_fraction[k]));
+    for (const Side side : kSides)
+      if (nuisances[k].side.value_or(side) == side) error.row[side] = row;
+  }
+  return by_key;
+}
+
+}  // namespace
+
+ConstantErrors constant_errors(const Refit& fitted, const std::vector<Nuisance>& nuisances,
+                               const Robot& file) {
+  ConstantErrors errors;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < fitted.columns.size(); ++i) {
+    const Column& column = fitted.equations.columns[static_cast<std::size_t>(fitted.columns[i])];
+    const auto owner = static_cast<std::size_t>(column.owner);
+    if (column.kind != Column::Kind::nuisance || !may_correlate(file, nuisances[owner].key)) continue;
+    errors.nuisances.push_back(owner);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::MatrixXd by_noise = fitted.covariance(rows, rows);
+  const Eigen::VectorXd by_runs = fitted.run_covariance(rows, rows).diagonal();
+  errors.correlation = correlation_of(by_noise);
+  errors.deviation = by_noise.diagonal().cwiseMax(by_runs).cwiseSqrt();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    double& deviation = errors.deviation[static_cast<Eigen::Index>(k)];
+    deviation = std::min(deviation, nuisances[errors.nuisances[k]].sigma);
+  }
+  return errors;
+}
+
+void write_constant_errors(const ConstantErrors& errors, const std::vector<Nuisance>& nuisances,
+                           const ModelState& state, Robot& robot) {
+  if (errors.nuisances.empty()) return;
+  std::vector<std::string> keys;
+  Sided<std::vector<Eigen::Index>> rows;
+  for (const auto& [key, error] : errors_by_key(errors, nuisances, state)) {
+    state_sigma(key, error.sigma, robot);
+    keys.push_back(key);
+    for (const Side side : kSides) rows[side].push_back(error.row[side]);
+  }
+  const Eigen::MatrixXd& all = errors.correlation;
+  state_correlations(keys, 0.5 * (all(rows.left, rows.left) + all(rows.right, rows.right)), robot);
+}
+
+}  // namespace joulepath
