@@ -112,13 +112,13 @@ std::string promises_text(const ConfidenceAccount& account) {
 
 void print_confidence(std::ostream& stream, const Plan& plan) {
   const ConfidenceAccount& account = *plan.confidence;
-  stream << "kept with " << figure(account.kept, 4) << " of " << std::to_string(account.draws)
-         << " drawn robots (asked " << figure(account.asked, 4) << ", shown "
-         << figure(account.kept_at_least, 4) << "): " << promises_text(account) << "\n";
+  stream << figure(100 * account.kept, 4) << " % of " << std::to_string(account.draws)
+         << " drawn robots keep all promises (asked " << figure(100 * account.asked, 4) << " %, shown "
+         << figure(100 * account.kept_at_least, 4) << " %): " << promises_text(account) << "\n";
   if (account.limit_shares.empty() && account.reserve_margin == 0) return;
   stream << "  confidence costs " << figure(plan.energy.total_J() - account.energy_without_J, 3) << " J and "
          << figure(plan.duration_s - account.duration_without_s, 3) << " s; without margins "
-         << figure(account.kept_without, 3) << " of them keep their promises\n";
+         << figure(100 * account.kept_without, 3) << " % of robots keep their promises\n";
 }
 
 /// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and

@@ -8,7 +8,7 @@
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 
-/// Plans a mission without regard to its `objective.confidence`.
+/// Plans a mission without regard to its `objective.confidence`, without baselines and bound over all paths.
 using PlanOnce = std::function<Plan(const MissionRequest&, const MissionWorld&, const PlanOptions&)>;
 
 /// Throws ConfigError where a mission asks for a confidence and the robot states no `uncertainty:`, or no

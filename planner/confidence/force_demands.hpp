@@ -26,8 +26,9 @@ using ForceUses = std::array<double, kForceLimits>;
 using ShiftedPlants = std::vector<std::array<Plant, 2>>;
 
 /// What a planned motion, tracked exactly, uses of the limits of motors, battery and tires, for other plants
-/// than the planned one. Looked at are both ends and the middle of every segment that three times the effect
-/// of all sigmas may saturate. It keeps references to plan and plant.
+/// than the planned one. Looked at are both ends and the middle of every segment that six times the effect of
+/// all sigmas may saturate. Open-circuit voltages and winding resistances are those of the plan's legs. It
+/// keeps references to plan and plant.
 class ForceDemands {
  public:
   ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ShiftedPlants& shifted);
@@ -38,7 +39,8 @@ class ForceDemands {
   /// Greatest uses by derivatives, of errors in sigmas.
   [[nodiscard]] ForceUses estimate(const Eigen::VectorXd& sigmas) const;
 
-  /// Greatest uses by a plant: the model at the places where the derivatives find the greatest ones.
+  /// Greatest uses by a plant: the model at the places where the derivatives find the greatest ones of each
+  /// limit and side, on each stretch.
   [[nodiscard]] ForceUses of(const Plant& plant, const Eigen::VectorXd& sigmas) const;
 
   /// The limits of a leg for a plant, the battery's own included.
@@ -47,11 +49,18 @@ class ForceDemands {
  private:
   struct Place {
     std::size_t leg{};
+    std::size_t stretch{};  ///< counted over the mission
     BodyMotion<double> motion{};
     Site site{};
     double speed_gain_m_s2{};
   };
-  /// The critical places of one limit: uses, and their changes with one sigma of each error (a row each).
+  /// A limit, for one wheel where it is one of wheels.
+  struct Row {
+    std::size_t limit{};
+    Side side{};
+  };
+  static const std::vector<Row>& rows();
+  /// The critical places of one row: uses, and their changes with one sigma of each error (a row each).
   struct Linear {
     std::vector<std::size_t> place{};
     Eigen::VectorXd use{};
@@ -59,18 +68,24 @@ class ForceDemands {
   };
 
   std::vector<Place> all_places() const;
-  void append_stretch(std::size_t leg, const StretchPlan& stretch, const PathMotion& motion,
-                      std::vector<Place>& places) const;
-  /// Uses of each limit (a row each) at a leg's places, by a plant.
+  static double use_of(const Row& row, const LimitState& state, const Limits& limits);
+  static LimitState state_at(const Place& place, const Plant& plant) {
+    return limit_state(plant, place.motion, place.site, place.speed_gain_m_s2, 0.0);
+  }
+  /// Uses of each row at a leg's places, by a plant.
   Eigen::MatrixXd uses_by(const Plant& plant, std::size_t leg, const std::vector<Place>& places) const;
-  ForceUses uses_at(const Place& place, const Plant& plant, const Limits& limits) const;
   void linearize(std::size_t leg, const ShiftedPlants& shifted, const std::vector<Place>& places);
+  void append_critical(std::size_t row, std::size_t first_place, const Eigen::MatrixXd& use,
+                       const std::vector<Eigen::MatrixXd>& slopes);
+  /// The greatest estimated uses of a row on each stretch.
+  void append_greatest(std::size_t row, const Eigen::VectorXd& sigmas,
+                       std::vector<std::size_t>& places) const;
 
   const Plan& plan_;
   const Plant& plant_;
   std::vector<Limits> limits_{};  ///< of each leg
   std::vector<Place> places_{};
-  std::array<Linear, kForceLimits> linear_{};
+  std::vector<Linear> linear_{};  ///< of each row
   ForceUses nominal_{};
 };
 

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kRounding = 1e-6;  ///< relative, of a plan's own limits
 constexpr int kBisections = 30;
-constexpr double kErrorOfTheFirstKind = 0.05;
 
 /// The smallest value that a share of the sorted ones does not exceed.
 double quantile(const std::vector<double>& sorted, double share) {
@@ -66,14 +65,15 @@ class RelativeDemands {
   std::vector<double> drop_{};
 };
 
-/// Probability that at least `kept` of n draws are kept, each with probability p.
+/// Probability that at least `kept` of n draws are kept, each with probability p: from the last term down,
+/// by their ratios, in logarithms.
 double upper_tail(std::size_t kept, std::size_t n, double p) {
-  double sum = 0;
-  const auto count = static_cast<double>(n);
-  for (std::size_t k = kept; k <= n; ++k) {
-    const auto own = static_cast<double>(k);
-    sum += std::exp(std::lgamma(count + 1) - std::lgamma(own + 1) - std::lgamma(count - own + 1) +
-                    own * std::log(p) + (count - own) * std::log1p(-p));
+  const double odds = std::log1p(-p) - std::log(p);
+  double sum = 0, term = static_cast<double>(n) * std::log(p);
+  for (std::size_t k = n; k + 1 > kept; --k) {
+    sum += std::exp(term);
+    if (k == 0) break;
+    term += std::log(static_cast<double>(k) / static_cast<double>(n - k + 1)) + odds;
   }
   return sum;
 }
@@ -87,8 +87,12 @@ LimitShares Margins::limit_shares() const {
   return shares;
 }
 
+bool keeps_limit(const PlanDemand& demand, std::size_t i) { return demand.use[i] <= 1 + kRounding; }
+
 bool keeps_limits(const PlanDemand& demand) {
-  return std::all_of(demand.use.begin(), demand.use.end(), [](double use) { return use <= 1 + kRounding; });
+  for (std::size_t i = 0; i < kForceLimits; ++i)
+    if (!keeps_limit(demand, i)) return false;
+  return true;
 }
 
 bool keeps_reserve(const PlanDemand& demand, double reserve_fraction) {
@@ -106,15 +110,15 @@ Margins margins_for(const std::vector<PlanDemand>& drawn, const PlanDemand& nomi
   return demands.at(high);
 }
 
-bool is_shown(std::size_t kept, std::size_t n, double p) {
-  return kept > 0 && upper_tail(kept, n, p) <= kErrorOfTheFirstKind;
+bool is_shown(std::size_t kept, std::size_t n, double p, double error) {
+  return kept > 0 && upper_tail(kept, n, p) <= error;
 }
 
-double kept_at_least(std::size_t kept, std::size_t n) {
+double kept_at_least(std::size_t kept, std::size_t n, double error) {
   double low = 0, high = 1;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
-    (is_shown(kept, n, middle) ? low : high) = middle;
+    (is_shown(kept, n, middle, error) ? low : high) = middle;
   }
   return low;
 }

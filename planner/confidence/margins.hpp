@@ -17,6 +17,7 @@ struct Margins {
 };
 
 /// Whether a demand keeps all limits of forces, and the reserve.
+[[nodiscard]] bool keeps_limit(const PlanDemand& demand, std::size_t i);
 [[nodiscard]] bool keeps_limits(const PlanDemand& demand);
 [[nodiscard]] bool keeps_reserve(const PlanDemand& demand, double reserve_fraction);
 
@@ -27,11 +28,11 @@ struct Margins {
 [[nodiscard]] Margins margins_for(const std::vector<PlanDemand>& drawn, const PlanDemand& nominal,
                                   double reserve_fraction, double share);
 
-/// Whether so many of n draws are kept that the probability to be kept is above p with 95 % confidence: the
-/// one-sided Clopper-Pearson bound, by the tail of the binomial distribution.
-[[nodiscard]] bool is_shown(std::size_t kept, std::size_t n, double p);
+/// Whether so many of n draws are kept that the probability to be kept is above p, wrongly with at most
+/// `error`: the one-sided Clopper-Pearson bound, by the tail of the binomial distribution.
+[[nodiscard]] bool is_shown(std::size_t kept, std::size_t n, double p, double error = 0.05);
 
-/// The one-sided 95 % Clopper-Pearson lower bound.
-[[nodiscard]] double kept_at_least(std::size_t kept, std::size_t n);
+/// The one-sided Clopper-Pearson lower bound.
+[[nodiscard]] double kept_at_least(std::size_t kept, std::size_t n, double error = 0.05);
 
 }  // namespace joulepath

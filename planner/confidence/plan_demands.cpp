@@ -35,7 +35,11 @@ double PlanDemands::model_friction_Nm(double sigma) const {
 }
 
 Plant PlanDemands::with_model_error(Plant plant, double sigmas) const {
-  for (const Side side : kSides) plant.robot.motor[side].friction_torque_Nm += sigmas * model_friction_Nm_;
+  constexpr double kLeastShare = 0.05;  // friction never drives the robot
+  for (const Side side : kSides) {
+    double& friction_Nm = plant.robot.motor[side].friction_torque_Nm;
+    friction_Nm = std::max(kLeastShare * friction_Nm, friction_Nm + sigmas * model_friction_Nm_);
+  }
   return plant;
 }
 

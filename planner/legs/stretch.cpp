@@ -57,11 +57,11 @@ void leave_margins(ProfileRequest& request, const LimitShares& shares) {
 
 }  // namespace
 
-PlanOptions with_limit_shares(PlanOptions options, LimitShares shares) {
-  options.limit_shares = std::move(shares);
-  if (options.limit_shares.empty()) return options;
+PlanOptions with_limit_shares(PlanOptions options, const LimitShares& shares) {
+  if (shares.empty()) return options;
   ByteWriter writer;
-  writer(options.answers.world.first, options.answers.world.second, options.limit_shares);
+  writer(options.answers.world.first, options.answers.world.second, shares);
+  for (const auto& [name, share] : shares) options.limit_shares.try_emplace(name, 1.0).first->second *= share;
   options.answers.world = content_key(writer.bytes());
   return options;
 }

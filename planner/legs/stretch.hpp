@@ -36,8 +36,9 @@ struct PlanOptions {
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
-/// The options of a plan that uses at most these shares of its limits. Its cached answers are its own.
-[[nodiscard]] PlanOptions with_limit_shares(PlanOptions options, LimitShares shares);
+/// The options of a plan that uses at most these shares of its limits, beside those that it has. Its cached
+/// answers are its own.
+[[nodiscard]] PlanOptions with_limit_shares(PlanOptions options, const LimitShares& shares);
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way,
 /// with the battery's own greatest power.

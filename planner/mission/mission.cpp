@@ -382,7 +382,7 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
   blame_battery(answer, world.robot, payload, plans_by);
 }
 
-/// Plans a mission, whatever confidence it asks for.
+/// Plans a mission, whatever confidence it asks for, without baselines and bound over all paths.
 Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
                const RouteSpace* space) {
   const Plan known{.mission = asked.name, .status = SolveStatus::optimal};
@@ -395,8 +395,6 @@ Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const Pla
   };
   Plan answer = planned(asked, world, plant, options);
   if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, options, planned);
-  if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
-  if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;
@@ -411,11 +409,14 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const PlanOnce once = [&](const MissionRequest& mission, const MissionWorld& in, const PlanOptions& how) {
     return plan_once(mission, in, how, space);
   };
-  if (!asked.objective.confidence || options.draft) return once(asked, world, options);
-  Plan plan = confident_plan(asked, world, options, once);
-  if (options.path_bound && !plan.path_bound)
-    add_path_bounds(plan, asked, world, make_plant(world.robot), space);
-  return plan;
+  PlanOptions alone = options;
+  alone.baselines = alone.path_bound = false;
+  Plan answer = asked.objective.confidence && !options.draft ? confident_plan(asked, world, alone, once)
+                                                             : once(asked, world, alone);
+  const Plant plant = make_plant(world.robot);
+  if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
+  if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
+  return answer;
 }
 
 }  // namespace joulepath

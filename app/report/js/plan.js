@@ -164,7 +164,7 @@ jp.confidence_section = function (plan) {
   const kept = (share) => (share > 0.999 ? "> 99.9 %" : percent(100 * share, 3)), costs = [plan.energy_J - account.energy_without_margins_J, plan.duration_s - account.duration_without_margins_s];
   const margins = Object.keys(account.limit_shares || {}).length > 0 || account.reserve_margin_fraction > 0;
   return jp.section("Confidence",
-    h("p", {}, `${kept(account.kept)} of ${account.draws} robots, drawn from the robot file's uncertainty, keep all promises; the probability is above ${kept(account.kept_at_least)}, asked for were ${kept(account.asked)}. ` +
+    h("p", {}, `${kept(account.kept)} of ${account.draws} robots, drawn from the robot file's uncertainty, keep all promises; the probability is above ${percent(100 * account.kept_at_least, 4)}, asked for were ${percent(100 * account.asked, 4)}. ` +
       (margins ? `This takes ${with_unit(costs[0], "J", 3)} and ${with_unit(costs[1], "s", 3)} more than the plan without margins, which ${kept(account.kept_without_margins)} of them keep.` : "The plan needs no margins for it.")),
     jp.table(["promise", {n: "kept"}, {n: "share of the limit used at most"}, ""],
       (account.promises || []).map((one) => [words(one.name), {n: kept(one.kept)}, {n: is_number((account.limit_shares || {})[one.name]) ? percent(100 * account.limit_shares[one.name], 3) : ""}, one.binds ? "binds" : ""])),
