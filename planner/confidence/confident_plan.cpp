@@ -1,6 +1,7 @@
 #include "planner/confidence/confident_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -55,13 +56,10 @@ bool is_too_late(const Plan& plan) {
   return constraint == "deadline" || constraint == "duration";
 }
 
-/// The relaxation of a limit that was planned with a share of it: of the whole limit.
-void unscale(Infeasibility& reason, const LimitShares& shares) {
-  for (const auto& [name, share] : shares) {
-    const auto relaxed = reason.relaxation.find(std::string(limit_named(name)->key));
-    if (relaxed != reason.relaxation.end()) relaxed->second /= share;
-    if (reason.constraint == name) reason.amount /= share;
-  }
+void set_limit(Robot& robot, const Limit& row, double value) {
+  if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
+  for (const Side side : kSides)
+    if (row.field == nullptr) robot.motor[side].*row.rating = value;
 }
 
 /// A mission whose plan is found in rounds.
@@ -209,11 +207,34 @@ class ConfidentPlanner {
     return plan;
   }
 
+  /// The relaxation of a limit that was planned with a share of it is one of the whole limit, with which the
+  /// mission is planned; none where no value near it is enough.
+  void offer_whole_limits(Infeasibility& reason) const {
+    constexpr std::array<double, 4> kMore{1, 1.02, 1.05, 1.1};
+    for (const auto& [name, share] : margins_.limit_shares()) {
+      const Limit& row = *limit_named(name);
+      if (reason.constraint == name) reason.amount /= share;
+      const auto relaxed = reason.relaxation.find(std::string(row.key));
+      if (relaxed == reason.relaxation.end()) continue;
+      const double whole = relaxed->second / share;
+      reason.relaxation.erase(relaxed);
+      for (const double more : kMore) {
+        MissionWorld other = world_;
+        set_limit(other.robot, row, more * whole);
+        ConfidentPlanner planner(mission_, other, quick(), plan_once_);
+        planner.offers_ = false;
+        if (!is_driven(planner.plan())) continue;
+        reason.relaxation[std::string(row.key)] = more * whole;
+        break;
+      }
+    }
+  }
+
   /// A plan that leaves the margins of its promises is not possible: so says its verdict.
   Plan as_verdict(Plan refused) const {
     if (refused.infeasibility) {
       Infeasibility& reason = refused.infeasibility->reason;
-      unscale(reason, margins_.limit_shares());
+      if (offers_) offer_whole_limits(reason);
       reason.message = "with " + percent(confidence_) + ": " + reason.message +
                        "; the plan without margins keeps its promises with " + percent(account_.kept_without);
       refused.message = reason.message;
@@ -247,6 +268,7 @@ class ConfidentPlanner {
   Plan chosen_{};           ///< without margins
   bool has_fixed_ways_{};
   bool tried_others_{};
+  bool offers_{true};
   Margins margins_{};
   ConfidenceAccount account_{};
 };

@@ -2,12 +2,13 @@
 // driven along the rows of the plan.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "model/config_error.hpp"
-#include "model/operating_point.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
+#include "planner/cache/answer_cache.hpp"
 #include "planner/confidence/lateness.hpp"
 #include "planner/confidence/margins.hpp"
 #include "planner/mission/mission.hpp"
@@ -84,21 +85,44 @@ TEST(Confidence, OfAMassAtTheCurrentLimitIsItsNormalQuantile) {
   }
 }
 
-/// Robots drawn here, moved along the rows of the plan with the operating point of each.
+/// Newton's law for one wheel, written out: side -1 is the left one.
+struct WheelJudge {
+  double chassis_kg, friction_Nm, ohm;
+  int side;
+
+  bool holds(const Robot& robot, double payload_kg, const BodyMotion<double>& body) const {
+    const double l = robot.geometry.half_track_m, r = robot.geometry.wheel_radius_m.left;
+    const Inertia& in = robot.inertia;
+    const double mass = chassis_kg + 2 * in.wheel_mass_kg + payload_kg;
+    const double inertia = in.chassis_yaw_inertia_kg_m2 + in.payload_yaw_inertia_m2 * payload_kg +
+                           2 * (in.wheel_mass_kg * l * l + in.wheel_diameter_inertia_kg_m2);
+    const double speed = (body.speed_m_s + side * l * body.yaw_rate_rad_s) / r;
+    const double gain = (body.acceleration_m_s2 + side * l * body.yaw_acceleration_rad_s2) / r;
+    const Motor& motor = robot.motor.left;
+    const double torque =
+        r * (0.5 * mass * body.acceleration_m_s2 + side * 0.5 * inertia * body.yaw_acceleration_rad_s2 / l) +
+        in.wheel_axle_inertia_kg_m2 * gain + motor.viscous_friction_Nm_s_rad * speed +
+        std::copysign(friction_Nm, speed);
+    const double per_A = motor.torque_constant_Nm_A * motor.gear_ratio, current_A = torque / per_A;
+    return std::abs(current_A) <= motor.max_current_A &&
+           std::abs(ohm * current_A + per_A * speed) <= motor.max_voltage_V;
+  }
+};
+
+/// Robots drawn here, moved along the rows of the plan.
 double share_kept(const Plan& plan, const Robot& robot, int draws) {
   const Trajectory rows = plan_trajectory(plan, make_plant(robot), 150);
   std::mt19937_64 random(977);
   std::normal_distribution<double> normal;
   int kept = 0;
   for (int i = 0; i < draws; ++i) {
-    Robot drawn = robot;
-    drawn.inertia.chassis_mass_kg *= 1 + 0.05 * normal(random);
-    const double warmer = 1 + 0.1 * normal(random);
-    for (const Side side : kSides) {
-      drawn.motor[side].friction_torque_Nm *= 1 + 0.15 * normal(random);
-      drawn.motor[side].resistance_ohm *= warmer;
-    }
-    const Plant plant = make_nominal_plant(drawn);
+    const double chassis_kg = robot.inertia.chassis_mass_kg * (1 + 0.05 * normal(random)),
+                 ohm = robot.motor.left.resistance_ohm * (1 + 0.1 * normal(random));
+    std::array<WheelJudge, 2> wheels;
+    for (const Side side : kSides)
+      wheels[side == Side::left ? 0 : 1] = {
+          chassis_kg, robot.motor[side].friction_torque_Nm * (1 + 0.15 * normal(random)), ohm,
+          side == Side::left ? -1 : 1};
     bool holds = true;
     for (std::size_t k = 0; k + 1 < rows.size() && holds; ++k) {
       const double dt = rows.time_s[k + 1] - rows.time_s[k];
@@ -107,23 +131,16 @@ double share_kept(const Plan& plan, const Robot& robot, int draws) {
       const auto middle = [&](const std::vector<double>& values) {
         return 0.5 * (values[k] + values[k + 1]);
       };
-      const BodyMotion<double> motion{middle(rows.linear_speed_m_s), slope(rows.linear_speed_m_s),
-                                      middle(rows.angular_speed_rad_s), slope(rows.angular_speed_rad_s)};
-      Site site{.payload_kg = rows.payload_kg[k]};
-      for (const Side side : kSides)
-        site.wheel_direction[side] =
-            sign_of(motion.speed_m_s + (side == Side::left ? -1 : 1) * 0.165 * motion.yaw_rate_rad_s);
-      const auto wheels = operating_point(plant, motion, site);
-      for (const Side side : kSides)
-        holds &= std::abs(wheels[side].current_A) <= robot.motor[side].max_current_A &&
-                 std::abs(wheels[side].voltage_V) <= robot.motor[side].max_voltage_V;
+      const BodyMotion<double> body{middle(rows.linear_speed_m_s), slope(rows.linear_speed_m_s),
+                                    middle(rows.angular_speed_rad_s), slope(rows.angular_speed_rad_s)};
+      for (const WheelJudge& wheel : wheels) holds &= wheel.holds(robot, rows.payload_kg[k], body);
     }
     kept += holds ? 1 : 0;
   }
   return static_cast<double>(kept) / draws;
 }
 
-/// Two limits bind at different places of two legs, one of them a bend with a deadline.
+/// Two limits bind at different places of two legs, one of them a bend.
 TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
   Robot robot = testing::nomad();
   for (const Side side : kSides) robot.motor[side].max_voltage_V = 14, robot.motor[side].max_current_A = 1.35;
@@ -144,6 +161,94 @@ TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
   EXPECT_NEAR(share, plan.confidence->kept, 4 * share_sigma(0.95, 1500));
   EXPECT_LT(plan.confidence->kept_without, 0.6);
   EXPECT_GT(plan.duration_s, plan.confidence->duration_without_s);
+}
+
+/// Both wheels' friction errs on its own. A start needs a per + T <= I Kt n, braking a per - T <= I Kt n,
+/// each on both sides, and all of them use the same share of the current: so |dT| <= d on both, (2 Phi(z) -
+/// 1)^2.
+TEST(Confidence, OfFrictionIsThatOfTwoWheels) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"friction_torque_Nm", 0.15}, {"model_energy", 0.0}};
+  const Plan plan = planned(straight(6, soonest(0.95)), robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  const Motor& motor = robot.motor.left;
+  const double used_A = greatest_current_A(plan_trajectory(plan, make_plant(robot), 200));
+  const double spare_Nm = (motor.max_current_A - used_A) * motor.torque_constant_Nm_A * motor.gear_ratio;
+  const double one_wheel = 2 * normal_share(spare_Nm / (0.15 * motor.friction_torque_Nm)) - 1;
+  EXPECT_NEAR(plan.confidence->kept, one_wheel * one_wheel, 4 * share_sigma(0.95, 4000));
+  EXPECT_GE(one_wheel * one_wheel, 0.95);
+}
+
+/// Near certainty a plan without margins is not taken for one that keeps its promises.
+TEST(Confidence, NearOneIsMeasuredThere) {
+  Robot robot = weak_robot();
+  const Plan fastest = planned(straight(6, {.minimize = Objective::Minimize::time}), robot);
+  const double used_A = greatest_current_A(plan_trajectory(fastest, make_plant(robot), 200));
+  const Motor& motor = robot.motor.left;
+  const double kt = motor.torque_constant_Nm_A * motor.gear_ratio;
+  const double sigma = 0.08 * 0.5 * 0.1 * robot.inertia.chassis_mass_kg /
+                       (0.05 * robot.total_mass_kg(0) + robot.inertia.wheel_axle_inertia_kg_m2 / 0.1);
+  // The deceleration limit leaves 3.1 sigmas of current to the mass.
+  const double torque_Nm = (used_A * kt + motor.friction_torque_Nm) / (1 + 3.1 * sigma);
+  robot.limits->deceleration_m_s2 =
+      torque_Nm / (0.05 * robot.total_mass_kg(0) + robot.inertia.wheel_axle_inertia_kg_m2 / 0.1);
+  robot.limits->acceleration_m_s2 = 0.5 * robot.limits->deceleration_m_s2;
+  const Plan plan = planned(straight(6, soonest(0.9999)), robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  EXPECT_NEAR(plan.confidence->kept_without, normal_share(3.1), 2e-4);
+  EXPECT_FALSE(plan.confidence->limit_shares.empty());
+  EXPECT_GE(plan.confidence->kept_at_least, 0.9999);
+}
+
+TEST(Confidence, DrawsHaveTheCorrelationOfTheFile) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"chassis_mass_kg", 0.05}, {"resistance_ohm", 0.1}, {"model_energy", 0.0}};
+  robot.uncertainty_correlations = {{"chassis_mass_kg", "resistance_ohm", -0.8}};
+  const Plant plant = make_plant(robot);
+  PlantDraws draws(plant, 3);
+  double of_mass = 0, of_ohm = 0, of_both = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Plant drawn = draws.next().plant;
+    const double mass = drawn.robot.inertia.chassis_mass_kg / robot.inertia.chassis_mass_kg - 1;
+    const double ohm = drawn.robot.motor.left.resistance_ohm / robot.motor.left.resistance_ohm - 1;
+    of_mass += mass * mass, of_ohm += ohm * ohm, of_both += mass * ohm;
+  }
+  EXPECT_NEAR(std::sqrt(of_mass / 4000), 0.05, 0.003);
+  EXPECT_NEAR(std::sqrt(of_ohm / 4000), 0.1, 0.006);
+  EXPECT_NEAR(of_both / std::sqrt(of_mass * of_ohm), -0.8, 0.03);
+}
+
+/// Friction that nearly takes the whole current: the offer is of the whole limit, and works.
+TEST(Confidence, AVerdictOffersAWholeLimit) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"friction_torque_Nm", 0.1}, {"model_energy", 0.0}};
+  const Motor& motor = robot.motor.left;
+  const double friction_A = motor.friction_torque_Nm / (motor.torque_constant_Nm_A * motor.gear_ratio);
+  for (const Side side : kSides) robot.motor[side].max_current_A = 1.08 * friction_A;
+  const Objective least{.confidence = 0.95};
+  const Plan refused = planned(straight(6, least), robot);
+  ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
+  ASSERT_EQ(refused.infeasibility->reason.constraint, "motor_current") << refused.message;
+  const double offered_A = refused.infeasibility->reason.relaxation.at("max_current_A");
+  EXPECT_GT(offered_A, robot.motor.left.max_current_A);
+  for (const Side side : kSides) robot.motor[side].max_current_A = offered_A;
+  const Plan plan = planned(straight(6, least), robot);
+  EXPECT_LE(plan.status, SolveStatus::feasible) << plan.message;
+}
+
+/// Plans with and without margins share a cache and stay what they are.
+TEST(Confidence, DoesNotDependOnWhatACacheHolds) {
+  AnswerCache cache;
+  const auto cached = [&](Objective objective) {
+    PlanOptions options{.solver = SolverChoice::fast, .nodes = 60, .baselines = false};
+    options.answers.cache = &cache;
+    return plan_mission(straight(6, std::move(objective)), {.robot = weak_robot()}, options);
+  };
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(cached(soonest(0.95)).duration_s, planned(straight(6, soonest(0.95)), weak_robot()).duration_s);
+    EXPECT_EQ(cached({.minimize = Objective::Minimize::time}).duration_s,
+              planned(straight(6, {.minimize = Objective::Minimize::time}), weak_robot()).duration_s);
+  }
 }
 
 TEST(Confidence, MoreOfItIsNeverFaster) {
@@ -198,6 +303,8 @@ TEST(Confidence, AVerdictSaysWhatDeadlineIsKept) {
   const Plan kept = planned(straight(6, later), weak_robot());
   ASSERT_LE(kept.status, SolveStatus::feasible) << kept.message;
   EXPECT_GE(kept.confidence->kept_at_least, 0.95);
+  ASSERT_EQ(kept.confidence->promises.front().name, "arrival");
+  EXPECT_GE(kept.confidence->promises.front().kept, kept.confidence->kept);
 }
 
 /// The energy of a charge is E (1 + sigma z) on a robot whose only error is the model's.
