@@ -22,7 +22,7 @@ class Mistake:
 
 def together(place, cause):
     """Both in one line."""
-    return f"(?:{place}).*(?:{cause})|(?:{cause}).*(?:{place})"
+    return f"(?:(?:{place}).*(?:{cause})|(?:{cause}).*(?:{place}))"
 
 
 PLAN = "plan mission.yaml --out out"
