@@ -169,6 +169,25 @@ std::size_t named_whichever(const Spoil& spoil, const char* kind, const char* ch
   return named;
 }
 
+/// Counts of encoders instead of speeds ask every other channel for a change that none shows: the counts are
+/// wrong, not the others.
+TEST(EncoderCounts, AsSpeedsMakeNoOtherChannelDead) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = twelve_runs("--effect none --seed 71");
+  for (joulepath::Run& run : dataset.runs)
+    for (const Side side : kSides) {
+      double angle_rad = 0;
+      std::vector<double>& speed = run.log.wheel_speed_rad_s[side];
+      for (std::size_t i = 1; i < speed.size(); ++i) {
+        angle_rad += speed[i] * (run.log.time_s[i] - run.log.time_s[i - 1]);
+        speed[i] = std::round(angle_rad * 2000 * 24.9 / (2 * std::numbers::pi));
+      }
+    }
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  EXPECT_FALSE(found.empty());
+  for (const DataCheck& check : found) EXPECT_NE(check.kind, "dead") << check.run << " " << check.channel;
+}
+
 /// No run may hide a wrong current behind the freedom that its own laws have: the other runs take it away.
 /// Slow runs need so little power that their batteries do not tell.
 TEST(OddRun, WithAWrongCurrentIsNamedWhicheverItIs) {

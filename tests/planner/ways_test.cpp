@@ -339,6 +339,18 @@ TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
   EXPECT_NE(plan.message.find("outside of the map"), std::string::npos) << plan.message;
+  EXPECT_EQ(plan.message.find("swapped"), std::string::npos) << "(3, 25) is no better than (25, 3)";
+}
+
+TEST(Route, SwappedCoordinatesAreAskedForWhereTheyWouldBeOnTheMap) {
+  MissionRequest mission = round_of_three();
+  Station& east = mission.stations["east"];
+  std::swap(east.x_m, east.y_m);
+  east.marks = {.path = "stations.east", .item = {"m.yaml", 4, 9}};
+  for (LegRequest& leg : mission.legs) leg.marks = {.path = "legs[0]", .item = {"m.yaml", 7, 5}};
+  const Plan plan = plan_of(mission, kCoarse);
+  EXPECT_NE(plan.message.find("are x and y swapped?"), std::string::npos) << plan.message;
+  EXPECT_NE(plan.message.find("m.yaml:4:9: stations.east"), std::string::npos) << plan.message;
 }
 
 /// The goal of one leg on a floor whose part beyond x = 12 m nobody has seen.
