@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
@@ -22,8 +23,8 @@
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/mission_list.hpp"
-#include "scenarios/mission_files/world_notes.hpp"
 #include "scenarios/mission_files/path_file.hpp"
+#include "scenarios/mission_files/world_notes.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
@@ -133,6 +134,7 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   describe_repairs(dataset, summary.data_checks);
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) summary.notes.push_back(note);
+  std::ranges::move(motor_notes(dataset), std::back_inserter(summary.notes));
   if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
   summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));

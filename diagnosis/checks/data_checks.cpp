@@ -111,9 +111,8 @@ class DataCheckSearch {
 
   /// Speeds that no wheel has (counts, another unit): what the other channels ask for is unknown.
   bool has_wild_wheels(std::size_t r) const {
-    return std::ranges::any_of(implausible_channels(run_of(runs_[r]), dataset_.robot), [](const auto& found) {
-      return found.channel.starts_with("wheel_speed_");
-    });
+    return std::ranges::any_of(implausible_channels(run_of(runs_[r]), dataset_.robot),
+                               [](const auto& found) { return found.channel.starts_with("wheel_speed_"); });
   }
 
   /// Of one value throughout, or all.

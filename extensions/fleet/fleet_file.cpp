@@ -115,10 +115,11 @@ class FleetReader {
     if (item.has("knee_fraction") != item.has("taper_W"))
       item.fail("knee_fraction and taper_W, or neither", "they are the second piece of the charge curve");
     charger.taper_W = item.number_or("taper_W", charger.power_W);
-    if (charger.taper_W > charger.power_W) item["taper_W"].fail("a number <= power_W", charger.power_W < kLeastCharger_W
-                                                                 ? item.path_of("power_W") + " is " +
-                                                                       item["power_W"].text() + " W: is it in kW?"
-                                                                 : "");
+    if (charger.taper_W > charger.power_W)
+      item["taper_W"].fail("a number <= power_W", charger.power_W < kLeastCharger_W
+                                                      ? item.path_of("power_W") + " is " +
+                                                            item["power_W"].text() + " W: is it in kW?"
+                                                      : "");
     fleet_.chargers.push_back(std::move(charger));
   }
 
@@ -175,7 +176,8 @@ std::vector<std::string> fleet_notes(const Fleet& fleet) {
   }
   for (const FleetRobot& robot : fleet.robots)
     if (robot.to_s - robot.from_s < least_s)
-      notes.push_back(robot.marks.key_path("to_s") + ": a shift of " + four_digits(robot.to_s - robot.from_s) +
+      notes.push_back(robot.marks.key_path("to_s") + ": a shift of " +
+                      four_digits(robot.to_s - robot.from_s) +
                       " s is shorter than the dwell of every mission (" + four_digits(least_s) +
                       " s or more); is it in hours?");
   return notes;

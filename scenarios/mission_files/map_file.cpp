@@ -15,7 +15,7 @@ namespace {
 constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in images of map savers
 
 constexpr double kCoarsestCell_m = 1.0;
-constexpr double kMostOccupied = 0.75;   ///< of the cells that are free or occupied
+constexpr double kMostOccupied = 0.75;  ///< of the cells that are free or occupied
 constexpr double kFullTurn_rad = 6.2832;
 
 enum class Mode { trinary, scale, raw };

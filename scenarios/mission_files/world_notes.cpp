@@ -43,10 +43,12 @@ void note_speed_caps(const MissionRequest& mission, const Robot& robot, WorldNot
     return zone.speed_m_s > kMostSpeedCap * robot.limits->speed_m_s;
   });
   if (wrong == mission.speed_zones.end()) return;
-  const auto key = std::ranges::find_if(kCapKeys, [&](const char* name) { return wrong->marks.keys.contains(name); });
+  const auto key =
+      std::ranges::find_if(kCapKeys, [&](const char* name) { return wrong->marks.keys.contains(name); });
   if (key == std::end(kCapKeys)) return;
-  notes.push_back(at_mark(wrong->marks.at(*key)) + wrong->marks.path + (wrong->marks.path.starts_with('/') ? "/" : ".") +
-                  *key + " " + four_digits(wrong->speed_m_s) + " m/s has no effect: the robot's limits.speed_m_s is " +
+  notes.push_back(at_mark(wrong->marks.at(*key)) + wrong->marks.path +
+                  (wrong->marks.path.starts_with('/') ? "/" : ".") + *key + " " +
+                  four_digits(wrong->speed_m_s) + " m/s has no effect: the robot's limits.speed_m_s is " +
                   four_digits(robot.limits->speed_m_s) + "; is it in mm/s, or in percent?");
 }
 
@@ -58,9 +60,10 @@ void note_route_graph(const MissionRequest& mission, const MissionWorld& world, 
     return !world.map->contains(cell) || world.map->at(cell) == 100;
   });
   if (static_cast<double>(outside) <= kMostOutside * static_cast<double>(nodes.size())) return;
-  notes.push_back(at_mark(mission.marks.at("route_graph")) + "route_graph: " + std::to_string(outside) + " of " +
-                  std::to_string(nodes.size()) + " nodes of " + mission.route_graph_file +
-                  " lie outside of the map " + mission.map_file + " or in its walls; is it another map's graph?");
+  notes.push_back(at_mark(mission.marks.at("route_graph")) + "route_graph: " + std::to_string(outside) +
+                  " of " + std::to_string(nodes.size()) + " nodes of " + mission.route_graph_file +
+                  " lie outside of the map " + mission.map_file +
+                  " or in its walls; is it another map's graph?");
 }
 
 }  // namespace

@@ -145,8 +145,7 @@ std::vector<std::string> implausible_constants(const Robot& robot) {
   note_friction(robot, on_robot, notes);
   notes.over("footprint", has_footprint(robot) ? far_m : 0.0,
              kGreatestReach * robot.geometry.half_track_m + std::abs(robot.geometry.center_of_mass_offset_m),
-             "m from the axle for half_track_m " + four_digits(robot.geometry.half_track_m),
-             "is it in cm?");
+             "m from the axle for half_track_m " + four_digits(robot.geometry.half_track_m), "is it in cm?");
   notes.over("power.standby_W", robot.power.standby_W,
              std::max(kAlwaysPossibleStandby_W, kMostStandby_W_kg * mass_kg), "W" + on_robot, "is it in mW?");
   return notes.take();

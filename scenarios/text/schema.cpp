@@ -91,7 +91,8 @@ void check_unknown_keys(const Node& node, const Schema& schema) {
     throw ConfigError({{node.mark().file, entry.line, entry.column},
                        node.path_of(entry.key),
                        "an unknown key",
-                       text_of_list(names), unknown_hint(entry.key, missing.empty() ? names : missing)});
+                       text_of_list(names),
+                       unknown_hint(entry.key, missing.empty() ? names : missing)});
   }
 }
 

@@ -160,7 +160,8 @@ TEST(Mission, AnImpossibleDeadlineIsRefusedAndItsRelaxationWorks) {
 }
 
 TEST(Mission, ALateArrivalNamesTheDwellAndWhereADeadlineCountsFrom) {
-  const auto message = [](double dwell_s, std::optional<double> of_leg_s, std::optional<double> of_mission_s) {
+  const auto message = [](double dwell_s, std::optional<double> of_leg_s,
+                          std::optional<double> of_mission_s) {
     MissionRequest mission = two_legs();
     mission.legs[0].dwell_s = dwell_s;
     mission.legs[1].deadline_s = of_leg_s;

@@ -79,9 +79,10 @@ class SweepCommand : public Command {
   /// A large grid takes days: said before, not by its progress.
   static void tell_size(const Study& study) {
     if (study.designs.size() < kManyDesigns) return;
-    std::cerr << "note: " << study.designs.size()
-              << " designs take hours or days; `sampling: {method: latin_hypercube, designs: 1000}` in the study "
-                 "draws fewer\n";
+    std::cerr
+        << "note: " << study.designs.size()
+        << " designs take hours or days; `sampling: {method: latin_hypercube, designs: 1000}` in the study "
+           "draws fewer\n";
   }
 
   /// The result lines of the best design that the search finds; none if no design of the sweep has a plan

@@ -32,10 +32,11 @@ bool tells(const std::vector<std::string>& notes, const std::string& words) {
 TEST(WorldNotes, ASpeedCapFarAboveTheRobotsLimitIsNoted) {
   const auto notes_at = [](double speed_m_s) {
     return added_notes([&](MissionRequest& mission, MissionWorld&) {
-      mission.speed_zones = {{.from_m = 1,
-                              .to_m = 2,
-                              .speed_m_s = speed_m_s,
-                              .marks = {.path = "speed_zones[0]", .keys = {{"speed_m_s", {"m.yaml", 9, 1}}}}}};
+      mission.speed_zones = {
+          {.from_m = 1,
+           .to_m = 2,
+           .speed_m_s = speed_m_s,
+           .marks = {.path = "speed_zones[0]", .keys = {{"speed_m_s", {"m.yaml", 9, 1}}}}}};
     });
   };
   EXPECT_TRUE(tells(notes_at(50), "m.yaml:9: speed_zones[0].speed_m_s 50 m/s has no effect"));
@@ -44,8 +45,7 @@ TEST(WorldNotes, ASpeedCapFarAboveTheRobotsLimitIsNoted) {
 
 TEST(WorldNotes, CellsAsWideAsTheRobotAreNoted) {
   const auto notes_at = [](double resolution_m) {
-    return added_notes(
-        [&](MissionRequest&, MissionWorld& world) { world.map->resolution_m = resolution_m; });
+    return added_notes([&](MissionRequest&, MissionWorld& world) { world.map->resolution_m = resolution_m; });
   };
   EXPECT_TRUE(tells(notes_at(0.5), "resolution: a cell of 0.5 m is as wide as the robot"));
   EXPECT_TRUE(notes_at(0.1).empty());
@@ -75,7 +75,8 @@ TEST(WorldNotes, ARobotsImplausibleConstantIsToldOfItsFile) {
 TEST(WorldNotes, PointsOfAPathThatAreFarApartAreNoted) {
   const ScratchDirectory scratch;
   std::vector<std::string> in_cm, in_m;
-  static_cast<void>(read_waypoints(scratch.write("cm.csv", "x_m,y_m\n0,0\n200,0\n400,100\n"), {}, {}, &in_cm));
+  static_cast<void>(
+      read_waypoints(scratch.write("cm.csv", "x_m,y_m\n0,0\n200,0\n400,100\n"), {}, {}, &in_cm));
   static_cast<void>(read_waypoints(scratch.write("m.csv", "x_m,y_m\n0,0\n2,0\n4,1\n"), {}, {}, &in_m));
   EXPECT_TRUE(tells(in_cm, "in cm, or in mm?"));
   EXPECT_TRUE(in_m.empty());
