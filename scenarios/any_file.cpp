@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
@@ -21,7 +22,9 @@
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_list.hpp"
 #include "scenarios/mission_files/path_file.hpp"
+#include "scenarios/mission_files/world_notes.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
@@ -102,7 +105,20 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
   summary.text =
       mission.legs.empty() ? counted(mission.visit.size(), "visit") : counted(mission.legs.size(), "leg");
   if (!mission.order_file.empty()) summary.text += ", from an order";
+  summary.notes = world_notes(mission, world, options);
   if (!world.robot.limits) summary.notes.push_back("its robot has no limits: plan needs them");
+  return summary;
+}
+
+/// Each line of a list of missions, as `batch` reads it.
+FileSummary summary_of_mission_list(const std::string& file, const ReadOptions& options) {
+  const std::vector<MissionItem> items = mission_items(file);
+  FileSummary summary{"missions", counted(items.size(), "mission"), {}};
+  for (const MissionItem& item : items) {
+    const MissionRequest mission = mission_from(document_of(item), options);
+    for (const std::string& note : world_notes(mission, read_world(mission, options), options))
+      if (std::ranges::find(summary.notes, note) == summary.notes.end()) summary.notes.push_back(note);
+  }
   return summary;
 }
 
@@ -118,6 +134,7 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   describe_repairs(dataset, summary.data_checks);
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) summary.notes.push_back(note);
+  std::ranges::move(motor_notes(dataset), std::back_inserter(summary.notes));
   if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
   summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));
@@ -214,6 +231,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (const FileReader* reader = reader_of(given_kind, false, by_name)) return reader->check(file, options);
   if (const RobotSource* source = robot_source_of(file)) return summary_of_source(*source, file);
   refuse_absent_file(file);
+  if (given_kind.empty() && extension == ".jsonl") return summary_of_mission_list(file, options);
   const Document document = Document::load(file);
   const std::string inferred = inferred_kind(document.root());
   const auto by_content = [&](const FileReader& reader) {
@@ -237,9 +255,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
                      : given_kind.empty() ? "a file of unknown kind"
                                           : "kind " + given_kind,
                      checked_kinds(),
-                     file.ends_with(".jsonl")
-                         ? "`joulepath batch` reads lists of missions, one on each line"
-                         : "a first line like `schema: joulepath/robot/1` states the kind"});
+                     "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 
 }  // namespace joulepath

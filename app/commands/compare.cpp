@@ -78,7 +78,8 @@ class CompareCommand : public Command {
     OutputDirectory out = analysis_output(options_, kResult);
     const ReadOptions reading{.untrusted = options_.common.untrusted};
     const MissionRequest mission = read_told_source(options_.source, reading, options_.common.quiet);
-    const Plan plan = plan_mission(mission, read_world(mission, reading), options_.plan);
+    const MissionWorld world = read_told_world(mission, reading, options_.common.quiet);
+    const Plan plan = plan_mission(mission, world, options_.plan);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to compare with: " << solve_status_name(plan.status) << ": " << plan.message
                 << "\n";

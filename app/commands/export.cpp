@@ -71,7 +71,7 @@ class ExportCommand : public Command {
     if (format.write_log && is_run_log(source.file)) return write_log(format);
     check_extension();
     const MissionRequest mission = read_told_source(source, reading, arguments_.common.quiet);
-    const MissionWorld world = read_world(mission, reading);
+    const MissionWorld world = read_told_world(mission, reading, arguments_.common.quiet);
     options_.solver = SolverChoice::fast;
     options_.baselines = false;  // exports do not use the plan's own baselines
     const Plan plan = plan_mission(mission, world, options_);

@@ -59,7 +59,7 @@ class FrontCommand : public Command {
     OutputDirectory out = analysis_output(options_, kResult);
     const ReadOptions reading{.untrusted = options_.common.untrusted};
     MissionRequest mission = read_told_source(options_.source, reading, options_.common.quiet);
-    const MissionWorld world = read_world(mission, reading);
+    const MissionWorld world = read_told_world(mission, reading, options_.common.quiet);
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
     const Plan plan = plan_mission(mission, world, options_.plan);

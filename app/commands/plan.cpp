@@ -72,7 +72,7 @@ class PlanCommand : public Command {
     const ReadOptions reading{.untrusted = common_.untrusted};
     MissionRequest mission = read_told_source(source_, reading, common_.quiet);
     if (confidence_) mission.objective.confidence = confidence_;
-    MissionWorld world = read_world(mission, reading);
+    MissionWorld world = read_told_world(mission, reading, common_.quiet);
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;

@@ -4,9 +4,18 @@
 
 #include "app/command_line.hpp"
 #include "model/printable.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/world_notes.hpp"
 #include "scenarios/registry.hpp"
 
 namespace joulepath {
+namespace {
+
+void tell_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::cerr << "note: " << printable(note) << "\n";
+}
+
+}  // namespace
 
 void add_plan_options(CommandLine& line, PlanOptions& options, const std::string& nodes_say) {
   line.option("--nodes", options.nodes, nodes_say).between(10, 20000).shows_default();
@@ -42,9 +51,14 @@ void add_mission_source(CommandLine& line, MissionSource& source, bool with_time
 MissionRequest read_told_source(const MissionSource& source, const ReadOptions& options, bool quiet) {
   std::vector<std::string> notes;
   MissionRequest mission = read_mission_source(source, options, &notes);
-  if (!quiet)
-    for (const std::string& note : notes) std::cerr << "note: " << printable(note) << "\n";
+  if (!quiet) tell_notes(notes);
   return mission;
+}
+
+MissionWorld read_told_world(const MissionRequest& mission, const ReadOptions& options, bool quiet) {
+  MissionWorld world = read_world(mission, options);
+  if (!quiet) tell_notes(world_notes(mission, world, options));
+  return world;
 }
 
 }  // namespace joulepath

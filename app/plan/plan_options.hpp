@@ -25,4 +25,8 @@ void add_mission_source(CommandLine& line, MissionSource& source, bool with_time
 [[nodiscard]] MissionRequest read_told_source(const MissionSource& source, const ReadOptions& options,
                                               bool quiet);
 
+/// Reads the mission's files and, unless `quiet`, tells what is doubtful in them.
+[[nodiscard]] MissionWorld read_told_world(const MissionRequest& mission, const ReadOptions& options,
+                                           bool quiet);
+
 }  // namespace joulepath

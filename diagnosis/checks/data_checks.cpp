@@ -109,6 +109,12 @@ class DataCheckSearch {
       if (!find_fault(with_factors)) break;
   }
 
+  /// Speeds that no wheel has (counts, another unit): what the other channels ask for is unknown.
+  bool has_wild_wheels(std::size_t r) const {
+    return std::ranges::any_of(implausible_channels(run_of(runs_[r]), dataset_.robot),
+                               [](const auto& found) { return found.channel.starts_with("wheel_speed_"); });
+  }
+
   /// Of one value throughout, or all.
   void find_dead(bool of_one_value) {
     std::vector<std::vector<FollowedChannel>> channels(runs_.size());
@@ -117,6 +123,7 @@ class DataCheckSearch {
     std::map<std::vector<std::string>, std::map<std::size_t, FollowedChannel>> found;
     for (std::size_t r = 0; r < runs_.size(); ++r)
       for (FollowedChannel& channel : channels[r]) {
+        if (!of_one_value && has_wild_wheels(r)) continue;
         channel.is_dead = channel.is_dead && (channel.is_constant || !of_one_value);
         found[channel.columns].emplace(r, channel);
       }

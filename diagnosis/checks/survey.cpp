@@ -1,8 +1,10 @@
 #include "diagnosis/checks/survey.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -13,6 +15,8 @@
 // Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
 namespace {
+
+constexpr double kCertainlyLong_s = 10.0;  ///< a log that is too short by its samples, not by its time
 
 /// Share of the runs that have a channel.
 template <class Has>
@@ -31,6 +35,15 @@ std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
   for (const std::string& run : runs)
     if (!run.empty()) append_item(text, run);
   return text.empty() ? text : text + ": ";
+}
+
+bool never_moves(const Dataset& dataset) {
+  return std::ranges::none_of(dataset.runs, [](const Run& run) {
+    const Sided<std::vector<double>>& speed_rad_s = run.log.wheel_speed_rad_s;
+    const auto moves = [](double speed) { return std::abs(speed) > kMovingWheel_rad_s; };
+    return is_energy_run(run) || std::ranges::any_of(speed_rad_s.left, moves) ||
+           std::ranges::any_of(speed_rad_s.right, moves);
+  });
 }
 
 /// The effects that cannot be seen without a channel or motion.
@@ -113,6 +126,11 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     survey.notes.push_back(
         "one payload only: losses that grow with the load cannot be separated from constant ones");
   const Manoeuvres share = manoeuvres_of(signals);
+  std::ranges::move(motor_notes(dataset), std::back_inserter(survey.notes));
+  if (never_moves(dataset))
+    survey.notes.push_back(
+        "no wheel turns in any run: only standby power and offsets can be seen; is it the log of a standing "
+        "robot, or the wrong topic of the wheels?");
   if (!turns(share)) lacks("no turns", true, &Needs::turns);
   if (!reverses(share)) lacks("no reversing", true, &Needs::reversing);
   if (share.still < kLeastManoeuvreShare)
@@ -157,6 +175,9 @@ void refuse_short_runs(const Dataset& dataset) {
               hint;
   for (const Implausible& channel : implausible_channels(longest, dataset.robot))
     append_item(found, channel.found), append_item(hint, channel.hint);
+  if (const double length_s = log_length_s(longest.log); length_s > kCertainlyLong_s)
+    append_item(hint, "about " + four_digits(static_cast<double>(longest.log.size()) / length_s) +
+                          " samples a second are too few: record at 20 to 100 Hz");
   throw ConfigError({longest.mark, "runs", found, "a log with wheel speeds and " + needed_text(), hint});
 }
 

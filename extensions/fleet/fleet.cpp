@@ -14,7 +14,7 @@ FileSummary check_fleet_file(const std::string& file, const ReadOptions& options
           counted(floor.fleet.robots.size(), "robot") + ", " +
               counted(floor.fleet.missions.size(), "mission") + ", " +
               counted(floor.fleet.chargers.size(), "charger"),
-          {}};
+          fleet_notes(floor.fleet)};
 }
 
 }  // namespace

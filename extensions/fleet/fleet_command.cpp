@@ -4,6 +4,7 @@
 #include "app/program_parts.hpp"
 #include "extensions/fleet/fleet_file.hpp"
 #include "extensions/fleet/fleet_floor.hpp"
+#include "model/printable.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,7 +22,10 @@ class FleetCommand : public Command {
   }
   void declare(CommandLine& line) override { line.option("FLEET", file_, "fleet file").required(); }
   int run() override {
-    static_cast<void>(read_fleet_floor(read_fleet(file_)));
+    const Fleet fleet = read_fleet(file_);
+    static_cast<void>(read_fleet_floor(fleet));
+    for (const std::string& note : fleet_notes(fleet))
+      std::cerr << "note: " << printable(file_ + ": " + note) << "\n";
     std::cerr << "joulepath: the fleet file is right; its planner is in the Python package: "
                  "pip install joulepath[fleet], then python -m joulepath fleet FLEET.yaml --out DIR\n";
     return kInfeasibleOrFailed;

@@ -1,6 +1,8 @@
 #include "extensions/fleet/fleet_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "model/printable.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double kDefaultBand_kg = 5.0;
 constexpr double kDefaultLatePrice_W = 1000.0;
+constexpr double kLeastCharger_W = 5.0;  ///< less charges no robot
 
 template <class Named>
 const std::string& known_name(const Node& node, const Named& names, const char* kind) {
@@ -112,7 +115,11 @@ class FleetReader {
     if (item.has("knee_fraction") != item.has("taper_W"))
       item.fail("knee_fraction and taper_W, or neither", "they are the second piece of the charge curve");
     charger.taper_W = item.number_or("taper_W", charger.power_W);
-    if (charger.taper_W > charger.power_W) item["taper_W"].fail("a number <= power_W");
+    if (charger.taper_W > charger.power_W)
+      item["taper_W"].fail("a number <= power_W", charger.power_W < kLeastCharger_W
+                                                      ? item.path_of("power_W") + " is " +
+                                                            item["power_W"].text() + " W: is it in kW?"
+                                                      : "");
     fleet_.chargers.push_back(std::move(charger));
   }
 
@@ -153,6 +160,27 @@ Fleet fleet_from(const Document& document, const ReadOptions& options) {
 
 Fleet read_fleet(const std::string& file, const ReadOptions& options) {
   return fleet_from(Document::load(file), options);
+}
+
+std::vector<std::string> fleet_notes(const Fleet& fleet) {
+  std::vector<std::string> notes;
+  for (const FleetCharger& charger : fleet.chargers)
+    if (charger.power_W < kLeastCharger_W)
+      notes.push_back(charger.marks.key_path("power_W") + ": " + four_digits(charger.power_W) +
+                      " W charge no robot; is it in kW?");
+  double least_s = std::numeric_limits<double>::infinity();
+  for (const FleetMission& mission : fleet.missions) {
+    double stands_s = 0.0;
+    for (const FleetStop& stop : mission.stops) stands_s += stop.dwell_s;
+    least_s = std::min(least_s, stands_s);
+  }
+  for (const FleetRobot& robot : fleet.robots)
+    if (robot.to_s - robot.from_s < least_s)
+      notes.push_back(robot.marks.key_path("to_s") + ": a shift of " +
+                      four_digits(robot.to_s - robot.from_s) +
+                      " s is shorter than the dwell of every mission (" + four_digits(least_s) +
+                      " s or more); is it in hours?");
+  return notes;
 }
 
 }  // namespace joulepath

@@ -168,6 +168,11 @@ Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, doubl
       !asked.deadline_s || (mission.objective.deadline_s && leg + 1 == mission.legs.size() &&
                             *mission.objective.deadline_s - asked.dwell_s < *asked.deadline_s);
   const double deadline_s = of_mission ? *mission.objective.deadline_s : *asked.deadline_s;
+  double dwell_s = of_mission ? asked.dwell_s : 0.0;
+  for (std::size_t k = 0; k < leg; ++k) dwell_s += mission.legs[k].dwell_s;
+  const std::string counted = !of_mission && leg > 0 ? ", counted from the mission's start" : "";
+  const std::string standing =
+      dwell_s >= amount_s ? "; " + seconds(dwell_s) + " of that time are dwell (dwell_s of the legs)" : "";
   return {.constraint = "deadline",
           .s = s_m,
           .x_m = pose.x_m,
@@ -176,7 +181,7 @@ Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, doubl
           .unit = "s",
           .relaxation = {{"deadline_s", deadline_s + amount_s}},
           .message = "even the fastest drive arrives " + seconds(amount_s) + " after the deadline of " +
-                     seconds(deadline_s)};
+                     seconds(deadline_s) + counted + standing};
 }
 
 Infeasibility too_short(double duration_s, double minimum_s, double s_m, const Pose& pose) {

@@ -72,12 +72,17 @@ std::string metres(double value) {
   return text;
 }
 
-/// The mark where the file names the stop: ` (mission.yaml:13:10: legs[1].to)`.
-std::string named_at(const ItemMarks& marks) {
-  const SourceMark& mark = marks.at("to");
+std::string place_of(const SourceMark& mark, const std::string& key) {
   if (mark.file.empty()) return "";
-  return " (" + mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " +
-         marks.key_path("to") + ")";
+  return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " + key;
+}
+
+/// Where the files name the stop: ` (mission.yaml:13:10: legs[1].to, mission.yaml:8:10: stations.shelf)`.
+std::string named_at(const ItemMarks& marks, const ItemMarks& station) {
+  const std::string leg = place_of(marks.at("to"), marks.key_path("to"));
+  const std::string place = place_of(station.item, station.path);
+  if (leg.empty()) return "";
+  return " (" + leg + (place.empty() ? "" : ", " + place) + ")";
 }
 
 Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, const ItemMarks& marks) {
@@ -87,7 +92,7 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
                        .amount = verdict.short_by_m,
                        .unit = "m",
                        .message = verdict.message};
-  if (verdict.status == RouteStatus::goal_blocked) reason.message += named_at(marks);
+  if (verdict.status == RouteStatus::goal_blocked) reason.message += named_at(marks, goal.marks);
   if (verdict.nearest_reachable_m) {
     const auto [x_m, y_m] = *verdict.nearest_reachable_m;
     reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
+
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
@@ -54,6 +57,17 @@ class Energy(Value):
         return f"Energy({self.total_J:.6g} J, {self.distance_m:.6g} m, {self.duration_s:.6g} s)"
 
 
+LONGEST_START_S = 300.0  # to the greatest speed, at the steepest
+
+
+def _doubt_times(at: np.ndarray, speed: np.ndarray) -> None:
+    """Warns of a clock in ms: a motion that takes minutes to come to speed."""
+    steepest, most = np.abs(np.diff(speed) / np.diff(at)).max(), np.abs(speed).max()
+    if 0 < LONGEST_START_S * steepest < most:
+        warnings.warn(f"t: the motion needs {most / steepest:.4g} s to come to {most:.4g} m/s at its steepest; are the times "
+                      "in ms?", stacklevel=3)
+
+
 def energy(robot: Robot, t: ArrayLike, v: ArrayLike, w: ArrayLike = 0.0, *, payload_kg: ArrayLike = 0.0) -> Energy:
     """Energy of a motion: times ``t`` (s), speeds ``v`` (m/s), yaw rates ``w`` (rad/s), ``payload_kg``.
 
@@ -68,6 +82,8 @@ def energy(robot: Robot, t: ArrayLike, v: ArrayLike, w: ArrayLike = 0.0, *, payl
     if len(at) < 2:
         raise refused("t", f"{len(at)} samples", "2 samples or more")
     most = {unit: _core.greatest_size(unit) for unit in ("speed_m_s", "rate_rad_s", "payload_kg")}
-    return Energy(_core.energy(robot_of(robot)._value, at, samples("v", v, len(at), -most["speed_m_s"], most["speed_m_s"]),
+    speed = samples("v", v, len(at), -most["speed_m_s"], most["speed_m_s"])
+    _doubt_times(at, speed)
+    return Energy(_core.energy(robot_of(robot)._value, at, speed,
                                samples("w", w, len(at), -most["rate_rad_s"], most["rate_rad_s"]),
                                samples("payload_kg", payload_kg, len(at), 0.0, most["payload_kg"])))

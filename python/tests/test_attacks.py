@@ -3,6 +3,7 @@ import copy
 import os
 import pickle
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -104,6 +105,15 @@ def test_arrays_of_every_layout_give_the_same(robot):
     frozen = xy.copy()
     frozen.flags.writeable = False
     assert len({jp.Path(same).length_m for same in (xy, frozen, [tuple(p) for p in xy], np.flip(np.flip(xy, 0), 0))}) == 1
+
+
+def test_a_motion_whose_times_are_in_ms_is_doubted(robot):
+    with pytest.warns(UserWarning, match="are the times in ms"):
+        jp.energy(robot, [0, 1000, 5000, 6000], [0, 0.5, 0.5, 0])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        jp.energy(robot, [0, 1, 5, 6], [0, 0.5, 0.5, 0])
+        jp.energy(robot, [0, 600], 0.5)
 
 
 def test_results_are_values(robot):

@@ -15,6 +15,8 @@ namespace {
 constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in images of map savers
 
 constexpr double kCoarsestCell_m = 1.0;
+constexpr double kMostOccupied = 0.75;  ///< of the cells that are free or occupied
+constexpr double kFullTurn_rad = 6.2832;
 
 enum class Mode { trinary, scale, raw };
 
@@ -52,6 +54,24 @@ Interpretation read_interpretation(const Node& root) {
   return meaning;
 }
 
+/// Floors are mostly free: where most of the known cells are occupied, black and white may be exchanged.
+std::string negate_note(const Image& image, const Interpretation& meaning) {
+  const auto count = [&](std::int8_t value) {
+    return static_cast<double>(std::ranges::count_if(
+        image.shade, [&](double shade) { return cell_value(shade, false, meaning) == value; }));
+  };
+  const double occupied = count(100), free = count(0);
+  if (!(occupied > kMostOccupied * (occupied + free))) return {};
+  return "negate: " + std::string(meaning.negate ? "1" : "0") + " makes " +
+         three_digits(100.0 * occupied / (occupied + free)) +
+         " % of the known cells occupied; are dark and light cells exchanged?";
+}
+
+void check_yaw(const Node& yaw) {
+  if (std::abs(yaw.number()) > kFullTurn_rad)
+    yaw.fail("a yaw from -6.2832 to 6.2832", "a yaw is within one turn; is it in degrees?");
+}
+
 }  // namespace
 
 Schema map_schema() {
@@ -72,18 +92,26 @@ std::string map_image_file(const std::string& file, const ReadOptions& options) 
 
 std::vector<std::string> map_notes(const std::string& file, const ReadOptions& options) {
   const Document document = Document::load(file);
-  const Node root = document.root();
   std::vector<std::string> notes;
   const Schema schema = map_schema();
-  for (const auto& [key, value] : root.entries())
+  for (const auto& [key, value] : document.root().entries())
     if (std::ranges::find(schema.keys, key, &Schema::Key::name) == schema.keys.end())
       notes.push_back(key + ": not read, as Nav2 does not read it either");
+  std::ranges::move(map_doubts(file, options), std::back_inserter(notes));
+  return notes;
+}
+
+std::vector<std::string> map_doubts(const std::string& file, const ReadOptions& options) {
+  const Document document = Document::load(file);
+  const Node root = document.root();
+  std::vector<std::string> notes;
   const Interpretation meaning = read_interpretation(root);
   if (const double resolution_m = root["resolution"].number(); resolution_m > kCoarsestCell_m)
     notes.push_back("resolution: cells of " + four_digits(resolution_m) +
                     " m are larger than a robot; is it in centimetres?");
   if (meaning.mode == Mode::raw) return notes;
   const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
+  if (const std::string note = negate_note(image, meaning); !note.empty()) notes.push_back(note);
   const auto saved_as_unknown = std::ranges::count_if(image.shade, [&](double shade) {
     return std::lround(shade * 255) == kSavedAsUnknown && cell_value(shade, false, meaning) == 0;
   });
@@ -104,6 +132,7 @@ OccupancyGrid read_map(const std::string& file, const NamedBy& named_by, const R
   const Interpretation meaning = read_interpretation(root);
   const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
   const auto origin = root["origin"].items();
+  check_yaw(origin[2]);
   OccupancyGrid grid{.width = image.width,
                      .height = image.height,
                      .resolution_m = root["resolution"].number(),

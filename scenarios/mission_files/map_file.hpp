@@ -21,6 +21,10 @@ namespace joulepath {
 /// unknown. Throws ConfigError.
 [[nodiscard]] std::vector<std::string> map_notes(const std::string& file, const ReadOptions& options = {});
 
+/// Of these the ones that change a plan: cells larger than a robot, dark and light exchanged, unknown cells
+/// as floor. Throws ConfigError.
+[[nodiscard]] std::vector<std::string> map_doubts(const std::string& file, const ReadOptions& options = {});
+
 /// The image that a map file names. Throws ConfigError.
 [[nodiscard]] std::string map_image_file(const std::string& file, const ReadOptions& options = {});
 

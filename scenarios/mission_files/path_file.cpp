@@ -18,6 +18,8 @@
 namespace joulepath {
 namespace {
 
+constexpr double kFarPoints_m = 100.0;  ///< between neighbors of a path in a building or a yard
+
 /// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
 constexpr double kShareOfSpacing = 0.6;
 constexpr int kFewestSteps = 3;       ///< a path bends to and fro on purpose less often
@@ -110,12 +112,26 @@ SharpBends sharp_bends(const Path& path, double spacing_m) {
   return bends;
 }
 
+/// Notes neighbors that are farther apart than stops in a building or a yard.
+void note_far_points(const std::vector<Pose>& points, std::vector<std::string>* notes) {
+  std::vector<double> apart_m;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    apart_m.push_back(std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m));
+  if (apart_m.empty() || notes == nullptr) return;
+  const auto middle = apart_m.begin() + static_cast<std::ptrdiff_t>(apart_m.size() / 2);
+  std::ranges::nth_element(apart_m, middle);
+  if (*middle > kFarPoints_m)
+    notes->push_back("points of the path are " + four_digits(*middle) +
+                     " m apart (median): are the coordinates in cm, or in mm?");
+}
+
 /// Follows points within a tolerance. Where none is stated and the curve bends to and fro more closely than
 /// the points are apart (the steps of a grid, noise), the tolerance fits the spacing. Notes say so, and where
 /// single bends are so close.
 template <class Follow>
 WaypointPath fitted(const Follow& follow, const std::vector<Pose>& points, std::optional<double> tolerance_m,
                     std::vector<std::string>* notes) {
+  note_far_points(points, notes);
   WaypointPath close = follow(tolerance_m.value_or(kWaypointTolerance_m));
   if (tolerance_m || close.defect || points.size() < 2) return close;
   double spacing_m = 0;
@@ -171,6 +187,7 @@ WaypointPath path_along(const CsvTable& table, std::optional<double> tolerance_m
                        "corner radii together with a tolerance",
                        "one of them",
                        "--tolerance and tolerance_m are for a curve through points"});
+  if (table.find("corner_radius_m") != nullptr) note_far_points(poses, notes);
   if (table.find("corner_radius_m") != nullptr)
     return lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0));
   if (table.find("heading_rad") == nullptr || poses.size() < 2)

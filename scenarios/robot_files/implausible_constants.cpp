@@ -5,6 +5,7 @@
 
 #include "model/abilities.hpp"
 #include "model/printable.hpp"
+#include "scenarios/robot_files/robot_check.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,6 +22,10 @@ constexpr double kMostTopSpeed = 5.0;               ///< by voltage, over the sp
 constexpr double kLeastTopSpeed = 0.5;              ///< the same
 constexpr double kMostStallCurrent = 30.0;          ///< max_voltage_V/resistance_ohm over max_current_A
 constexpr double kAlwaysPossibleStandby_W = 200.0;  ///< a computer with a graphics card on a small robot
+constexpr double kLeastEnergy_Wh_kg = 1.0;          ///< of the whole robot; supercapacitors have less
+constexpr double kMostMotorVoltage = 1.5;           ///< over the battery's voltage
+constexpr double kLeastRolling = 0.002;             ///< friction over weight: steel wheels on rails
+constexpr double kGreatestReach = 10.0;             ///< of the outline, in half tracks
 
 /// Greatest distance of the outline from the chassis' center of mass.
 double reach_m(const Robot& robot) {
@@ -62,6 +67,34 @@ void note_yaw_limits(const Robot& robot, Notes& notes) {
   notes.over("limits.yaw_acceleration_rad_s2", limits.yaw_acceleration_rad_s2,
              limits.acceleration_m_s2 / turn_m, "rad/s^2 for this track and acceleration_m_s2",
              "is it in degrees per second squared?");
+}
+
+/// Motors without voltage converters have the battery's voltage at most.
+void note_battery(const Robot& robot, const std::string& on_robot, Notes& notes) {
+  const Battery& battery = robot.battery;
+  notes.over("battery.capacity_Wh", battery.capacity_Wh, kMostEnergy_Wh_kg * robot.total_mass_kg(0.0),
+             "Wh" + on_robot, "is it in J, or in mAh?");
+  notes.under("battery.capacity_Wh", battery.capacity_Wh, kLeastEnergy_Wh_kg * robot.total_mass_kg(0.0),
+              "Wh" + on_robot, "is it in Ah, or in kWh?");
+  const double voltage_V = std::min(robot.motor.left.max_voltage_V, robot.motor.right.max_voltage_V);
+  notes.over("motor.max_voltage_V", voltage_V, kMostMotorVoltage * battery.open_circuit_voltage_V,
+             "V with battery.open_circuit_voltage_V " + four_digits(battery.open_circuit_voltage_V),
+             "is one of them that of a single cell, or ten times too high?");
+}
+
+/// Friction that is smaller than the rolling resistance of any wheel under the robot's weight.
+void note_friction(const Robot& robot, const std::string& on_robot, Notes& notes) {
+  const bool rolls_apart = std::ranges::any_of(
+      robot.effects, [](const EffectSetting& effect) { return effect.name == "rolling_resistance"; });
+  if (rolls_apart) return;
+  for (const Side side : kSides) {
+    const double weight_N = 0.5 * robot.total_mass_kg(0.0) * kGravity_m_s2;
+    notes.under("motor.friction_torque_Nm, " + std::string(side_name(side)),
+                robot.motor[side].friction_torque_Nm,
+                kLeastRolling * weight_N * robot.geometry.wheel_radius_m[side],
+                "N m for the rolling resistance" + on_robot,
+                "is it at the motor's shaft? At the wheel it is gear_ratio times larger");
+  }
 }
 
 /// Motors that cannot turn the wheels, or are much faster or slower than the speed limit.
@@ -108,8 +141,11 @@ std::vector<std::string> implausible_constants(const Robot& robot) {
               "is it that of a wheel, or of a part of the robot?");
   if (robot.limits) note_yaw_limits(robot, notes);
   const std::string on_robot = " on a robot of " + four_digits(mass_kg) + " kg";
-  notes.over("battery.capacity_Wh", robot.battery.capacity_Wh, kMostEnergy_Wh_kg * mass_kg, "Wh" + on_robot,
-             "is it in J, or in mAh?");
+  note_battery(robot, on_robot, notes);
+  note_friction(robot, on_robot, notes);
+  notes.over("footprint", has_footprint(robot) ? far_m : 0.0,
+             kGreatestReach * robot.geometry.half_track_m + std::abs(robot.geometry.center_of_mass_offset_m),
+             "m from the axle for half_track_m " + four_digits(robot.geometry.half_track_m), "is it in cm?");
   notes.over("power.standby_W", robot.power.standby_W,
              std::max(kAlwaysPossibleStandby_W, kMostStandby_W_kg * mass_kg), "W" + on_robot, "is it in mW?");
   return notes.take();

@@ -111,10 +111,16 @@ void check_robot(const Node& root, const Robot& robot) {
     const Motor& motor = robot.motor[side];
     const double ratio = ratio_of(motor);
     if (ratio <= kMostRatio && ratio >= kLeastRatio) continue;
+    const std::string hint = units_mixed_up(motor);
+    if (hint.starts_with("is the voltage constant"))
+      root["motor"]["voltage_constant_V_s_rad"].fail_found(
+          four_digits(motor.voltage_constant_V_s_rad) + ", " + four_digits(1 / ratio) +
+              " times the torque constant",
+          "0.9 to 2 times the torque constant (" + four_digits(motor.torque_constant_Nm_A) + " N m/A)", hint);
     root["motor"]["torque_constant_Nm_A"].fail_found(
         four_digits(motor.torque_constant_Nm_A) + ", " + four_digits(ratio) + " times the voltage constant",
         "0.5 to 1.1 times the voltage constant (" + four_digits(motor.voltage_constant_V_s_rad) + " V s/rad)",
-        units_mixed_up(motor));
+        hint);
   }
   check_heat(root, robot);
   check_battery(root, robot);

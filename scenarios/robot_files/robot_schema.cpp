@@ -106,14 +106,15 @@ Schema footprint_schema() {
 }
 
 Schema uncertainty_schema() {
+  constexpr Range relative{.min = 0.0, .max = 1.0, .why = "relative, 1 sigma: 0.015 is 1.5 %"};
   std::vector<Schema::Key> keys;
   for (const Schema& section :
        {geometry_schema(), inertia_schema(), motor_schema(), power_schema(), battery_schema()})
     for (const auto& key : section.keys)
       if (key.schema.kind == Schema::Kind::number || key.schema.kind == Schema::Kind::any_of)
-        keys.push_back(optional(key.name, number(kFraction)));
-  keys.push_back(optional("payload_kg", number(kFraction)));
-  keys.push_back(optional("model_energy", number(kFraction),
+        keys.push_back(optional(key.name, number(relative)));
+  keys.push_back(optional("payload_kg", number(relative)));
+  keys.push_back(optional("model_energy", number(relative),
                           "of the model itself: relative 1-sigma of a mission's energy of motion"));
   return map(std::move(keys));
 }

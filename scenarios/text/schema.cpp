@@ -73,6 +73,13 @@ const Schema::Key* key_named(const Schema& schema, const std::string& name) {
   return nullptr;
 }
 
+/// A number in the place of a key is what a decimal comma leaves within braces: {a: 10,0, b: 1}.
+std::string unknown_hint(const std::string& key, const std::vector<std::string>& known) {
+  if (parse_number(key)) return "a comma separates keys; the decimal sign is a point";
+  const std::string near = nearest_word(key, known);
+  return near.empty() ? "" : "did you mean " + near + "?";
+}
+
 void check_unknown_keys(const Node& node, const Schema& schema) {
   for (const auto& entry : node.value().entries) {
     if (key_named(schema, entry.key)) continue;
@@ -81,12 +88,11 @@ void check_unknown_keys(const Node& node, const Schema& schema) {
       names.push_back(key.name);
       if (!node.has(key.name)) missing.push_back(key.name);
     }
-    const std::string near = nearest_word(entry.key, missing.empty() ? names : missing);
     throw ConfigError({{node.mark().file, entry.line, entry.column},
                        node.path_of(entry.key),
                        "an unknown key",
                        text_of_list(names),
-                       near.empty() ? "" : "did you mean " + near + "?"});
+                       unknown_hint(entry.key, missing.empty() ? names : missing)});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "diagnosis/checks/faults.hpp"
+#include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/log_columns.hpp"
 #include "tests/support/blind_day.hpp"
@@ -167,6 +168,47 @@ std::size_t named_whichever(const Spoil& spoil, const char* kind, const char* ch
     EXPECT_EQ(found[0].run, sound.runs[r].name);
   }
   return named;
+}
+
+/// Counts of encoders instead of speeds ask every other channel for a change that none shows: the counts are
+/// wrong, not the others.
+TEST(EncoderCounts, AsSpeedsMakeNoOtherChannelDead) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = twelve_runs("--effect none --seed 71");
+  for (joulepath::Run& run : dataset.runs)
+    for (const Side side : kSides) {
+      double angle_rad = 0;
+      std::vector<double>& speed = run.log.wheel_speed_rad_s[side];
+      for (std::size_t i = 1; i < speed.size(); ++i) {
+        angle_rad += speed[i] * (run.log.time_s[i] - run.log.time_s[i - 1]);
+        speed[i] = std::round(angle_rad * 2000 * 24.9 / (2 * std::numbers::pi));
+      }
+    }
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  EXPECT_FALSE(found.empty());
+  for (const DataCheck& check : found) EXPECT_NE(check.kind, "dead") << check.run << " " << check.channel;
+}
+
+TEST(MotorNotes, OfUnsignedCurrentsAndOfAnotherClockAndOfNothingElse) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const char* sound : {"none", "time_misalignment --size 0.12", "floor_slope --size 0.02"})
+    EXPECT_TRUE(motor_notes(twelve_runs(std::string("--effect ") + sound + " --seed 71")).empty()) << sound;
+  Dataset magnitudes = twelve_runs("--effect none --seed 71"), late = magnitudes;
+  for (joulepath::Run& run : magnitudes.runs)
+    for (double& current_A : run.log.motor_current_A.left) current_A = std::abs(current_A);
+  ASSERT_EQ(motor_notes(magnitudes).size(), 1u);
+  EXPECT_NE(motor_notes(magnitudes)[0].find("motor_current_left_A: {unsigned: true}"), std::string::npos);
+  for (joulepath::Run& run : late.runs) {
+    std::vector<double>& voltage = run.log.motor_voltage_V.right;
+    const auto rows = static_cast<std::ptrdiff_t>(std::lround(
+        2.0 * static_cast<double>(run.log.size()) / (run.log.time_s.back() - run.log.time_s.front())));
+    std::rotate(voltage.begin(), voltage.end() - rows, voltage.end());
+    std::fill(voltage.begin(), voltage.begin() + rows, 0.0);
+  }
+  ASSERT_EQ(motor_notes(late).size(), 1u);
+  EXPECT_NE(motor_notes(late)[0].find("motor_voltage_right_V follows its wheel about 1.8 s late"),
+            std::string::npos)
+      << motor_notes(late)[0];
 }
 
 /// No run may hide a wrong current behind the freedom that its own laws have: the other runs take it away.

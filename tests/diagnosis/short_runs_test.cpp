@@ -180,6 +180,22 @@ TEST(Clock, OfOneRunInMillisecondsIsNamedWithThatRun) {
   })) << described(found);
 }
 
+/// A minute with 30 samples is too short by its rate, not by its time.
+TEST(ShortRuns, OfALongTimeAreToldTheirRate) {
+  const auto hint = [](double duration_s, double period_s) -> std::string {
+    Dataset dataset{.file = "day.yaml", .robot = nomad()};
+    dataset.runs = {drive("slow", duration_s, 1, 1, period_s)};
+    try {
+      refuse_short_runs(dataset);
+    } catch (const ConfigError& error) {
+      return error.detail().hint;
+    }
+    return "accepted";
+  };
+  EXPECT_NE(hint(30, 1.0).find("samples a second are too few: record at 20 to 100 Hz"), std::string::npos);
+  EXPECT_EQ(hint(0.4, 0.02).find("samples a second"), std::string::npos);
+}
+
 /// Slow logs of sound robots: a sample each ten or thirty seconds, a drive without a stop, a slow start.
 TEST(Clock, OfASlowLogIsPlausible) {
   for (const double period_s : {1.0, 10.0, 30.0}) {

@@ -47,6 +47,19 @@ TEST(Survey, ListsTheEffectsThatNoRunCanShow) {
     EXPECT_TRUE(straight.invisible_effects.contains(effect)) << effect;
 }
 
+TEST(Survey, RunsInWhichNoWheelTurnsAreNoted) {
+  const auto notes_them = [](const Dataset& dataset) {
+    return std::ranges::any_of(survey_of(dataset).notes, [](const std::string& note) {
+      return note.starts_with("no wheel turns in any run");
+    });
+  };
+  Dataset dataset = bare_day(nomad(), 0.4);
+  EXPECT_FALSE(notes_them(dataset));
+  for (joulepath::Run& run : dataset.runs)
+    for (const Side side : kSides) std::ranges::fill(run.log.wheel_speed_rad_s[side], 0.001);
+  EXPECT_TRUE(notes_them(dataset));
+}
+
 TEST(Survey, OneRunWithAGyroShowsTheTrackWidth) {
   Dataset dataset = bare_day(nomad(), 0.4);
   dataset.runs.front().log.gyro_yaw_rate_rad_s.assign(dataset.runs.front().log.size(), 0.0);

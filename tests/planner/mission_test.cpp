@@ -159,6 +159,21 @@ TEST(Mission, AnImpossibleDeadlineIsRefusedAndItsRelaxationWorks) {
   EXPECT_NE(plan_of(mission).status, SolveStatus::infeasible);
 }
 
+TEST(Mission, ALateArrivalNamesTheDwellAndWhereADeadlineCountsFrom) {
+  const auto message = [](double dwell_s, std::optional<double> of_leg_s,
+                          std::optional<double> of_mission_s) {
+    MissionRequest mission = two_legs();
+    mission.legs[0].dwell_s = dwell_s;
+    mission.legs[1].deadline_s = of_leg_s;
+    mission.objective.deadline_s = of_mission_s;
+    return lone_plan_of(mission).message;
+  };
+  EXPECT_NE(message(2000, {}, 90).find("2000.000 s of that time are dwell"), std::string::npos);
+  EXPECT_EQ(message(0, {}, 5).find("dwell"), std::string::npos);
+  EXPECT_NE(message(0, 5, {}).find("counted from the mission's start"), std::string::npos);
+  EXPECT_EQ(message(0, {}, 5).find("counted from"), std::string::npos);
+}
+
 TEST(Mission, AnEarlyDeadlineOfOneLegBindsThatLegAlone) {
   MissionRequest mission = two_legs();
   const Plan base = plan_of(mission);

@@ -339,6 +339,18 @@ TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
   EXPECT_NE(plan.message.find("outside of the map"), std::string::npos) << plan.message;
+  EXPECT_EQ(plan.message.find("swapped"), std::string::npos) << "the other order is outside, too";
+}
+
+TEST(Route, SwappedCoordinatesAreAskedForWhereTheyWouldBeOnTheMap) {
+  MissionRequest mission = round_of_three();
+  mission.stations["east"] = {
+      .x_m = 6, .y_m = 20, .marks = {.path = "stations.east", .item = {"m.yaml", 4, 9}}};
+  mission.legs = {{.to = "east", .marks = {.path = "legs[0]", .item = {"m.yaml", 7, 5}}}};
+  const Plan plan =
+      plan_mission(mission, {.robot = testing::nomad(), .map = free_grid(240, 120, 0.1)}, kCoarse);
+  EXPECT_NE(plan.message.find("are x and y swapped?"), std::string::npos) << plan.message;
+  EXPECT_NE(plan.message.find("m.yaml:4:9: stations.east"), std::string::npos) << plan.message;
 }
 
 /// The goal of one leg on a floor whose part beyond x = 12 m nobody has seen.

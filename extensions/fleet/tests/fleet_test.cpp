@@ -61,6 +61,17 @@ TEST(FleetFile, NumbersOfRobotsAndTheirBatteries) {
   EXPECT_TRUE(json["robots"][0]["to_s"].is_null());
 }
 
+TEST(FleetFile, AShiftShorterThanEveryMissionAndAWeakChargerAreNoted) {
+  Fleet fleet = read_fleet(JOULEPATH_SOURCE_DIR "/scenarios/fleets/night_shift.yaml");
+  EXPECT_TRUE(fleet_notes(fleet).empty());
+  fleet.robots[1].to_s = 8;
+  fleet.chargers[0].power_W = 0.2;
+  const std::vector<std::string> notes = fleet_notes(fleet);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0].rfind("chargers[0].power_W: 0.2 W charge no robot", 0), 0u) << notes[0];
+  EXPECT_EQ(notes[1].rfind("robots[1].to_s: a shift of 8 s", 0), 0u) << notes[1];
+}
+
 TEST(FleetFile, ARobotThatMayNotCarryAPayloadIsLeftOut) {
   FleetMission mission = good_floor().fleet.missions.front();
   EXPECT_TRUE(may_drive(good_floor(), 0, mission));

@@ -18,6 +18,7 @@ namespace joulepath {
 namespace {
 
 constexpr std::size_t kMostSearched = 1000;
+constexpr std::size_t kManyDesigns = 10'000;  ///< hours on one core
 
 class SweepCommand : public Command {
  public:
@@ -56,6 +57,7 @@ class SweepCommand : public Command {
                          "a parameter with from and to, which --optimize can move"});
     OutputDirectory out = job_output(options_, run, kSweepFiles);
     plan_.solver = SolverChoice::fast;
+    if (!options_.common.quiet) tell_size(study);
     SweepJobs jobs(study, plan_, {.untrusted = options_.common.untrusted}, options_.cache);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
@@ -74,6 +76,15 @@ class SweepCommand : public Command {
   }
 
  private:
+  /// A large grid takes days: said before, not by its progress.
+  static void tell_size(const Study& study) {
+    if (study.designs.size() < kManyDesigns) return;
+    std::cerr
+        << "note: " << study.designs.size()
+        << " designs take hours or days; `sampling: {method: latin_hypercube, designs: 1000}` in the study "
+           "draws fewer\n";
+  }
+
   /// The result lines of the best design that the search finds; none if no design of the sweep has a plan
   /// within the constraints.
   std::vector<std::string> search(const Study& study, SweepJobs& jobs,

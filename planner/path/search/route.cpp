@@ -57,6 +57,7 @@ RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, c
       "%.2f to %.2f m",
       which, verdict.x_m, verdict.y_m, extent.x_min_m, extent.x_max_m, extent.y_min_m, extent.y_max_m);
   verdict.message = text;
+  if (map.contains(map.cell_of(verdict.y_m, verdict.x_m))) verdict.message += "; are x and y swapped?";
   return verdict;
 }
 

@@ -88,6 +88,18 @@ TEST(MapFile, FreeFloorThatWasSavedAsUnknownIsNoted) {
     EXPECT_TRUE(notes(sound).empty()) << sound;
 }
 
+TEST(MapFile, AMapWhoseFloorIsOccupiedIsNoted) {
+  const ScratchDirectory scratch;
+  scratch.write("m.pgm", "P2 8 1 255 254 254 254 254 254 254 254 0");
+  const auto notes = [&](const std::string& negate) {
+    return map_doubts(scratch.write(
+        "m.yaml", map_yaml("m.pgm", "occupied_thresh: 0.65\nfree_thresh: 0.196\nnegate: " + negate + "\n")));
+  };
+  EXPECT_TRUE(notes("0").empty());
+  ASSERT_EQ(notes("1").size(), 1u);
+  EXPECT_EQ(notes("1")[0].rfind("negate: 1 makes 87.5 %", 0), 0u) << notes("1")[0];
+}
+
 TEST(MapFile, KeysThatNav2IgnoresAreNotedNotRefused) {
   const ScratchDirectory scratch;
   scratch.write("m.pgm", "P2 1 1 255 254");

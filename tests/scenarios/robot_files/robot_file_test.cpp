@@ -53,6 +53,7 @@ TEST(RobotFile, ConstantsThatMassAndSizeContradictAreNoted) {
       {"yaw_rate_rad_s", [](Robot& r) { r.limits->yaw_rate_rad_s *= 57.3; }},
       {"yaw_acceleration_rad_s2", [](Robot& r) { r.limits->yaw_acceleration_rad_s2 *= 57.3; }},
       {"capacity_Wh", [](Robot& r) { r.battery.capacity_Wh *= 1000; }},
+      {"capacity_Wh", [](Robot& r) { r.battery.capacity_Wh /= 25; }},
       {"standby_W", [](Robot& r) { r.power.standby_W *= 1000; }}};
   for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/robots")) {
     if (entry.path().extension() != ".yaml") continue;
@@ -68,6 +69,29 @@ TEST(RobotFile, ConstantsThatMassAndSizeContradictAreNoted) {
       EXPECT_NE(notes[0].find(slip.key), std::string::npos) << notes[0];
     }
   }
+}
+
+TEST(RobotFile, ABatteryThatDoesNotFitTheMotorsIsNoted) {
+  const Robot robot = read_robot(kNomad);
+  Robot of_one_cell = robot, ten_times = robot;
+  of_one_cell.battery.open_circuit_voltage_V = 4.6;
+  for (const Side side : kSides) ten_times.motor[side].max_voltage_V *= 10;
+  for (const Robot& wrong : {of_one_cell, ten_times})
+    EXPECT_TRUE(std::ranges::any_of(implausible_constants(wrong), [](const std::string& note) {
+      return note.starts_with("motor.max_voltage_V ") &&
+             note.find("battery.open_circuit_voltage_V") != std::string::npos;
+    }));
+}
+
+TEST(RobotFile, FrictionAtTheShaftAndAFootprintInCentimetersAreNoted) {
+  Robot at_shaft = read_robot(kNomad), in_cm = at_shaft;
+  for (const Side side : kSides) at_shaft.motor[side].friction_torque_Nm /= at_shaft.motor[side].gear_ratio;
+  ASSERT_FALSE(implausible_constants(at_shaft).empty());
+  EXPECT_NE(implausible_constants(at_shaft)[0].find("motor's shaft"), std::string::npos);
+  at_shaft.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.01}}}};
+  EXPECT_TRUE(implausible_constants(at_shaft).empty()) << "the wheels' resistance is stated apart";
+  in_cm.footprint.radius_m *= 100;
+  EXPECT_NE(implausible_constants(in_cm).back().find("is it in cm?"), std::string::npos);
 }
 
 /// A slip in the motor's constants leaves a robot that cannot move, or one much faster or slower than its
