@@ -28,7 +28,8 @@ std::vector<Correlation> rounded_pairs(const std::vector<std::string>& keys, con
   for (std::size_t k = 0; k < keys.size(); ++k)
     for (std::size_t i = 0; i < k; ++i) {
       const double exact = matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-      if (std::abs(exact) < kLeastWritten || !may_correlate(robot, keys[i]) || !may_correlate(robot, keys[k]))
+      if (!(std::abs(exact) >= kLeastWritten) || !may_correlate(robot, keys[i]) ||
+          !may_correlate(robot, keys[k]))
         continue;
       pairs.push_back(
           {keys[i], keys[k], std::clamp(std::round(kDigits * exact) / kDigits, -kMostWritten, kMostWritten)});
@@ -69,7 +70,8 @@ std::optional<Eigen::MatrixXd> cholesky_factor(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) return Eigen::MatrixXd{};
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
   Eigen::MatrixXd lower = factor.matrixL();
-  if (factor.info() != Eigen::Success || lower.diagonal().array().square().minCoeff() < kLeastPivot)
+  if (factor.info() != Eigen::Success || !lower.allFinite() ||
+      lower.diagonal().array().square().minCoeff() < kLeastPivot)
     return std::nullopt;
   return lower;
 }

@@ -36,6 +36,13 @@ nlohmann::ordered_json parameters_json(const CalibrationResult& result) {
   return list;
 }
 
+nlohmann::ordered_json correlations_json(const Robot& robot) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Correlation& pair : robot.uncertainty_correlations)
+    list.push_back({{"first", pair.first}, {"second", pair.second}, {"correlation", pair.correlation}});
+  return list;
+}
+
 nlohmann::ordered_json line_json(const SteadyLine& line) {
   nlohmann::ordered_json json{{"b1_A", line.b1_A}, {"b2_A_s_rad", line.b2_A_s_rad}};
   if (line.has_voltage) json["c1_V"] = line.c1_V, json["c2_V_s_rad"] = line.c2_V_s_rad;
@@ -56,6 +63,8 @@ nlohmann::ordered_json result_json(const CalibrationResult& result) {
   if (result.lines)
     json["equation_30"] = {{"left", line_json(result.lines->left)},
                            {"right", line_json(result.lines->right)}};
+  json["uncertainty"] = result.robot.uncertainty;
+  json["uncertainty_correlations"] = correlations_json(result.robot);
   json["notes"] = result.notes;
   return json;
 }
@@ -78,7 +87,7 @@ class Calibrate : public Command {
   void declare(CommandLine& line) override {
     line.option("DATASET", dataset_, "dataset: the robot and its runs").required();
     line.option("--robot", robot_, "robot file; replaces the dataset's");
-    line.option("--out", out_, "robot file to write, with the calibrated values and their uncertainty");
+    line.option("--out", out_, "robot file to write, with the calibrated values and their covariance");
     line.option(
             "--method", method_,
             "full: whole runs with voltages and currents; steady: stretches of constant speed, friction only")

@@ -10,6 +10,7 @@
 #include "diagnosis/calibration/steady.hpp"
 #include "diagnosis/calibration/written_errors.hpp"
 #include "diagnosis/estimation/model_energy.hpp"
+#include "model/model_error.hpp"
 #include "model/nuisance_correlation.hpp"
 
 namespace joulepath {
@@ -274,6 +275,19 @@ Robot robot_without(const Robot& robot, const Fit& fit, const FitValues& lower,
   return robot_with(robot, fit_full(rest, fit.weights, nominal_values(robot), lower, fit.can.free).values);
 }
 
+/// Each run with the robot that the others give; without one where there are too few to state an error.
+std::vector<HeldOutRun> held_out_runs(const Dataset& dataset, const std::vector<SmoothedRun>& runs,
+                                      const Fit& fit, const FitValues& lower) {
+  std::vector<HeldOutRun> held_out;
+  for (const SmoothedRun& run : runs) {
+    held_out.push_back({dataset.runs[run.index], dataset.robot});
+    if (runs.size() >= kLeastHeldOutRuns)
+      held_out.back().robot =
+          robot_without(dataset.robot, fit, lower, fit_sums(dataset.robot, {run}, 0, kBlock_s));
+  }
+  return held_out;
+}
+
 CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<SmoothedRun>& runs) {
   const Robot& robot = dataset.robot;
   const std::vector<FitSums> units = fit_sums(robot, runs, kFewestRuns, kBlock_s);
@@ -303,11 +317,7 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
   if (!fit.result.converged) result.notes.push_back("the solver stopped before it converged");
   const FittedErrors errors = add_parameters(dataset, units, fit, lower, result);
   write_errors(result.parameters, written_keys(), errors, result.robot);
-  std::vector<HeldOutRun> held_out;
-  for (const SmoothedRun& run : runs)
-    held_out.push_back(
-        {dataset.runs[run.index], robot_without(robot, fit, lower, fit_sums(robot, {run}, 0, kBlock_s))});
-  result.notes.push_back(write_model_energy(held_out, result.robot));
+  result.notes.push_back(write_model_energy(held_out_runs(dataset, runs, fit, lower), result.robot));
   return result;
 }
 

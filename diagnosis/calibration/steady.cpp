@@ -173,8 +173,8 @@ void write_to(Robot& robot, const std::vector<double>& values) {
 }
 
 /// The runs with a robot that the others give; none where too few have steady segments.
-std::vector<HeldOutRun> held_out_runs(const Dataset& dataset, const std::vector<SteadySegment>& segments,
-                                      const Units& units) {
+std::vector<HeldOutRun> held_out_steady_runs(const Dataset& dataset,
+                                             const std::vector<SteadySegment>& segments, const Units& units) {
   std::vector<HeldOutRun> held_out;
   for (std::size_t k = 0; k < units.runs.size() && units.by_run; ++k) {
     Robot robot = dataset.robot;
@@ -239,7 +239,8 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   write_errors(result.parameters, {{"friction_torque_Nm", {0, 2}}, {"viscous_friction_Nm_s_rad", {1, 3}}},
                errors, result.robot);
   result.current_rms_after_A = current_rms_A(result.robot, result.segments);
-  result.notes.push_back(write_model_energy(held_out_runs(dataset, result.segments, units), result.robot));
+  result.notes.push_back(
+      write_model_energy(held_out_steady_runs(dataset, result.segments, units), result.robot));
   result.notes.push_back("constant speeds do not show inertias; R and Kt n are the robot file's");
   return result;
 }

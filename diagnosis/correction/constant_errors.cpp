@@ -43,14 +43,12 @@ ConstantErrors constant_errors(const Refit& fitted, const std::vector<Nuisance>&
     errors.nuisances.push_back(owner);
     rows.push_back(static_cast<Eigen::Index>(i));
   }
-  const Eigen::MatrixXd by_noise = fitted.covariance(rows, rows);
-  const Eigen::VectorXd by_runs = fitted.run_covariance(rows, rows).diagonal();
+  const Eigen::MatrixXd by_noise = fitted.covariance(rows, rows), by_runs = fitted.run_covariance(rows, rows);
   errors.correlation = correlation_of(by_noise);
-  errors.deviation = by_noise.diagonal().cwiseMax(by_runs).cwiseSqrt();
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    double& deviation = errors.deviation[static_cast<Eigen::Index>(k)];
-    deviation = std::min(deviation, nuisances[errors.nuisances[k]].sigma);
-  }
+  errors.deviation.resize(std::ssize(rows));
+  for (Eigen::Index k = 0; k < errors.deviation.size(); ++k)
+    errors.deviation[k] = std::min(std::sqrt(std::max(by_noise(k, k), by_runs(k, k))),
+                                   nuisances[errors.nuisances[static_cast<std::size_t>(k)]].sigma);
   return errors;
 }
 

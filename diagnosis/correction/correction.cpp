@@ -1,6 +1,6 @@
 #include "diagnosis/correction/correction.hpp"
 
-#include "diagnosis/estimation/model_energy.hpp"
+#include "model/model_error.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,13 +2,21 @@
 // schema accepts.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
 #include "diagnosis/correction/judged_model.hpp"
+#include "model/estimate.hpp"
+#include "model/motions.hpp"
+#include "model/normal_quantiles.hpp"
+#include "model/nuisance_correlation.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/result_files/next_step.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/practice_sets.hpp"
+#include "tests/support/practice_truth.hpp"
 
 namespace joulepath {
 namespace {
@@ -126,6 +134,61 @@ TEST(WrittenCorrection, IsNotWrittenWhereTheProgramRefusesIt) {
   EXPECT_NE(d.verdict, Verdict::explained);
   ASSERT_EQ(d.refused_correction, "motor: no");
   EXPECT_NE(next_step(d).find("motor: no"), std::string::npos) << next_step(d);
+}
+
+/// Squares of the errors of a file's friction, resistance and torque constant, whitened by its covariance.
+double whitened_square(const Robot& file, const Robot& truth) {
+  const std::vector<Nuisance> nuisances = nuisances_of(file);
+  std::vector<Eigen::Index> rows;
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < nuisances.size(); ++k) {
+    const Side side = nuisances[k].side.value_or(Side::left);
+    const auto add = [&](const char* key, double Motor::*constant) {
+      if (nuisances[k].key != key) return;
+      rows.push_back(static_cast<Eigen::Index>(k));
+      errors.push_back((truth.motor[side].*constant / (file.motor[side].*constant) - 1) / nuisances[k].sigma);
+    };
+    add("friction_torque_Nm", &Motor::friction_torque_Nm);
+    add("viscous_friction_Nm_s_rad", &Motor::viscous_friction_Nm_s_rad);
+    add("resistance_ohm", &Motor::resistance_ohm);
+    add("torque_constant_Nm_A", &Motor::torque_constant_Nm_A);
+  }
+  const Eigen::VectorXd error = Eigen::VectorXd::Map(errors.data(), std::ssize(errors));
+  return error.dot(Eigen::MatrixXd(nuisance_correlation(file)(rows, rows)).llt().solve(error));
+}
+
+/// A corrected file's intervals hold the energies of the labelled robot, on motions that no run has.
+TEST(WrittenCorrection, StatesErrorsThatHoldTheTruth) {
+  double squares = 0.0;
+  for (const char* set : {"p03_rolling_resistance", "p05_floor_slope", "p09_track_width_error_rough"}) {
+    const Dataset dataset = read_dataset(testing::practice_file(set));
+    const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
+    ASSERT_TRUE(d.corrected_robot) << set;
+    const Robot file = robot_from(Document::parse(robot_text(*d.corrected_robot), "corrected.yaml"));
+    EXPECT_EQ(file.uncertainty_correlations, d.corrected_robot->uncertainty_correlations);
+    for (const auto& [key, sigma] : dataset.robot.uncertainty)
+      EXPECT_LT(file.uncertainty.at(key), 1.1 * sigma) << set << key;
+    ASSERT_TRUE(file.model_energy_sigma()) << set;
+    const Robot truth = testing::true_robot(dataset.robot, testing::practice_file(set, "truth.yaml"));
+    squares += whitened_square(file, truth);
+    Robot limited = dataset.robot;
+    limited.limits = testing::nomad().limits;
+    for (const double speed_m_s : {0.25, 0.45, 0.65}) {
+      const Trajectory motion =
+          timed_motion(
+              limited,
+              {{.profile = MotionProfile::trapezoid, .speed_m_s = speed_m_s, .distance_m = 5},
+               {.profile = MotionProfile::arc, .speed_m_s = speed_m_s, .radius_m = 1.5, .angle_rad = 2}},
+              {.payload_kg = 4})
+              .trajectory;
+      const auto energy_J = [&](const Robot& robot) {
+        return estimate_energy(make_plant(robot), motion).by_cause.total_J();
+      };
+      EXPECT_LT(std::abs(energy_J(file) - energy_J(truth)), kNormal95 * energy_sigma_J(file, motion))
+          << set << speed_m_s;
+    }
+  }
+  EXPECT_LT(squares, 37.7);  // chi squared of 3 times 5 constants: 0.1 %
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "tests/support/nomad.hpp"
 
@@ -49,6 +50,7 @@ TEST(NuisanceCorrelation, ErrorsThatCannotBeTogetherHaveNoFactor) {
                                                {"resistance_ohm", "viscous_friction_Nm_s_rad", 0.5}});
   EXPECT_FALSE(cholesky_factor(nuisance_correlation(robot)));
   EXPECT_FALSE(cholesky_factor(Eigen::Matrix2d{{1, 1}, {1, 1}}));
+  EXPECT_FALSE(cholesky_factor(Eigen::Matrix2d{{1, std::nan("")}, {std::nan(""), 1}}));
 }
 
 TEST(NuisanceCorrelation, OnlyErrorsOfTheCalibrationHaveOne) {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/calibration/calibration.hpp"
 #include "diagnosis/estimation/model_energy.hpp"
+#include "model/model_error.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/nuisance_correlation.hpp"
 #include "planner/mission/mission.hpp"
