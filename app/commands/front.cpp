@@ -59,6 +59,8 @@ class FrontCommand : public Command {
     OutputDirectory out = analysis_output(options_, kResult);
     const ReadOptions reading{.untrusted = options_.common.untrusted};
     MissionRequest mission = read_told_source(options_.source, reading, options_.common.quiet);
+    if (confidence_) mission.objective.confidence = confidence_;
+    confidence_ = mission.objective.confidence;
     const MissionWorld world = read_told_world(mission, reading, options_.common.quiet);
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
@@ -111,6 +113,7 @@ class FrontCommand : public Command {
   /// The front of a mission with the margins of its fastest drive that keeps the confidence.
   struct SureFront {
     LimitShares limit_shares{};
+    double reserve_margin{};
     std::vector<FrontPoint> points{};
     std::string reason{};  ///< reason why there is none
   };
@@ -174,7 +177,8 @@ class FrontCommand : public Command {
     if (prints_analysis_table(options_, result)) {
       print_points(front.points);
       if (sure) {
-        std::cout << "\nwith a confidence of " << figure(*confidence_, 4) << ":\n";
+        std::cout << "\nwith the margins of the fastest drive that keeps its promises with "
+                  << figure(100 * *confidence_, 4) << " %:\n";
         print_points(sure->points);
       }
       print_baselines(front, beside);
@@ -182,8 +186,10 @@ class FrontCommand : public Command {
   }
 
   nlohmann::json sure_json(const SureFront& sure) const {
-    nlohmann::json json{
-        {"asked", *confidence_}, {"limit_shares", sure.limit_shares}, {"points", nlohmann::json::array()}};
+    nlohmann::json json{{"asked", *confidence_},
+                        {"limit_shares", sure.limit_shares},
+                        {"reserve_margin_fraction", sure.reserve_margin},
+                        {"points", nlohmann::json::array()}};
     for (const FrontPoint& point : sure.points)
       json["points"].push_back(point_json(point, options_.plan.accuracy));
     return json;

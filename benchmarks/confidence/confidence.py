@@ -103,8 +103,18 @@ FIELDS = {"chassis_mass_kg": "chassis_kg", "chassis_yaw_inertia_kg_m2": "yaw_ine
           "resistance_ohm": "ohm", "torque_constant_Nm_A": "torque_constant", "viscous_friction_Nm_s_rad": "viscous"}
 
 
-def scenario(robot, nominal, random):
-    """A machine drawn from the errors that a file states, with their correlations."""
+def model_friction(robot, nominal, rows):
+    """Relative change of the friction that changes the energy of motion along the rows by one sigma of the model's error."""
+    time_s, v, _, w, _, _ = motion_of(rows)
+    step = 0.01
+    rougher = dataclasses.replace(nominal, friction=tuple(f * (1 + step) for f in nominal.friction))
+    base = demand(nominal, rows)[2]
+    motion_J = base - nominal.standby_W * (time_s[-1] - time_s[0])
+    return robot["uncertainty"].get("model_energy", 0.0) * motion_J * step / (demand(rougher, rows)[2] - base)
+
+
+def scenario(robot, nominal, friction_sigma, random):
+    """A machine drawn from the errors that a file states, with their correlations, and the model's own as friction."""
     sigmas = {k: s for k, s in robot["uncertainty"].items() if k in FIELDS or k == "friction_torque_Nm"}
     keys = [k for k in sigmas if k != "friction_torque_Nm"]
     places = {k: [i] for i, k in enumerate(keys)}
@@ -124,6 +134,8 @@ def scenario(robot, nominal, random):
     if "friction_torque_Nm" in sigmas:
         values["friction"] = tuple(f * (1 + sigmas["friction_torque_Nm"] * errors[i]) for f, i in
                                    zip(nominal.friction, places["friction_torque_Nm"]))
+    of_model = 1 + friction_sigma * random.normal()
+    values["friction"] = tuple(f * of_model for f in values.get("friction", nominal.friction))
     return dataclasses.replace(nominal, **values)
 
 
@@ -173,7 +185,8 @@ def case(campaign, seed):
         result |= {"kept": kept(rows), "said": account["kept"], "binding": [p["name"] for p in account["promises"] if p["binds"]],
                    "cost_J": plan["energy_J"] / plain["energy_J"] - 1, "cost_s": plan["duration_s"] / plain["duration_s"] - 1}
     if binds != "reserve":
-        drawn = [demand(scenario(robot, nominal, random), plain_rows) for _ in range(SCENARIOS)]
+        sigma = model_friction(robot, nominal, plain_rows)
+        drawn = [demand(scenario(robot, nominal, sigma, random), plain_rows) for _ in range(SCENARIOS)]
         own = demand(nominal, plain_rows)
         shares = {"max_current_A": min(1.0, own[0] / max(d[0] for d in drawn)), "max_voltage_V": min(1.0, own[1] / max(d[1] for d in drawn))}
         other, other_rows, _ = campaign.plan(with_keys(text, **{k: s * robot["motor"][k] for k, s in shares.items()}), legs, objective)

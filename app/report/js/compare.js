@@ -67,7 +67,7 @@ jp.draw_front = function (data) {
     return `${number(x[row])} s` + (one ? ` · ${with_unit(one.energy_J, "J")}` + (is_number(one.price_of_time_W) ? ` · value of a second ${with_unit(one.price_of_time_W, "W")}` : "") : "");
   });
   const make = (title, key) => jp.plot({title, unit: "J", x: () => x, x_label: () => "duration, s", cursor, tall: true, fitted: true, series: [{name: "optimal", values: find(points, key), color: "plan", points: 3},
-    ...(sure.length ? [{name: `kept with ${percent(100 * data.front.confidence.asked, 4)}`, values: find(sure, key), color: "limit", points: 2}] : []),
+    ...(sure.length ? [{name: `with margins for ${percent(100 * data.front.confidence.asked, 4)}`, values: find(sure, key), color: "limit", points: 2}] : []),
     ...names.map((name, k) => ({name: words(name), values: find(near.filter((one) => one.name === name), key), ...look_beside(k), points: 2}))]});
   const plots = [make("Energy at the battery, with standby", "energy_J")];
   if (points.some((one) => is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
