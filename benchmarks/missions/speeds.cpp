@@ -3,7 +3,7 @@
 namespace joulepath::bench {
 namespace {
 
-constexpr PlanOptions kOptions{.solver = SolverChoice::fast, .baselines = false};
+const PlanOptions kOptions{.solver = SolverChoice::fast, .baselines = false};
 constexpr int kMissions = 40;
 
 }  // namespace

@@ -28,7 +28,7 @@ namespace {
 using namespace joulepath;
 
 constexpr double kClearance_m = 0.05;
-constexpr PlanOptions kFast{.solver = SolverChoice::fast, .baselines = false};
+const PlanOptions kFast{.solver = SolverChoice::fast, .baselines = false};
 const std::string kScenarios = JOULEPATH_SOURCE_DIR "/scenarios/";
 
 double median(std::vector<double> values) {
