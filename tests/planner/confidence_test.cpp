@@ -43,7 +43,7 @@ Objective soonest(double confidence) {
   return {.minimize = Objective::Minimize::time, .confidence = confidence};
 }
 
-Plan planned(const MissionRequest& mission, const Robot& robot) {
+Plan planned_for(const MissionRequest& mission, const Robot& robot) {
   return plan_mission(mission, {.robot = robot},
                       {.solver = SolverChoice::fast, .nodes = 60, .baselines = false});
 }
@@ -65,7 +65,7 @@ double greatest_current_A(const Trajectory& rows) {
 TEST(Confidence, OfAMassAtTheCurrentLimitIsItsNormalQuantile) {
   for (const double confidence : {0.8, 0.95, 0.99}) {
     const Robot robot = weak_robot();
-    const Plan plan = planned(straight(6, soonest(confidence)), robot);
+    const Plan plan = planned_for(straight(6, soonest(confidence)), robot);
     ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
     const Motor& motor = robot.motor.left;
     const double r = robot.geometry.wheel_radius_m.left, kt = motor.torque_constant_Nm_A * motor.gear_ratio;
@@ -153,7 +153,7 @@ TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
   MissionRequest mission = straight(5, soonest(0.95));
   mission.legs.push_back(
       {.path = PathRequest{.bezier_m = {{{{0, 0}, {2, 0}, {4, 1}, {4, 3}}}}}, .payload = {6, 6}});
-  const Plan plan = planned(mission, robot);
+  const Plan plan = planned_for(mission, robot);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   ASSERT_TRUE(plan.confidence);
   EXPECT_GE(plan.confidence->limit_shares.size(), 2u);
@@ -169,7 +169,7 @@ TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
 TEST(Confidence, OfFrictionIsThatOfTwoWheels) {
   Robot robot = weak_robot();
   robot.uncertainty = {{"friction_torque_Nm", 0.15}, {"model_energy", 0.0}};
-  const Plan plan = planned(straight(6, soonest(0.95)), robot);
+  const Plan plan = planned_for(straight(6, soonest(0.95)), robot);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   const Motor& motor = robot.motor.left;
   const double used_A = greatest_current_A(plan_trajectory(plan, make_plant(robot), 200));
@@ -182,7 +182,7 @@ TEST(Confidence, OfFrictionIsThatOfTwoWheels) {
 /// Near certainty a plan without margins is not taken for one that keeps its promises.
 TEST(Confidence, NearOneIsMeasuredThere) {
   Robot robot = weak_robot();
-  const Plan fastest = planned(straight(6, {.minimize = Objective::Minimize::time}), robot);
+  const Plan fastest = planned_for(straight(6, {.minimize = Objective::Minimize::time}), robot);
   const double used_A = greatest_current_A(plan_trajectory(fastest, make_plant(robot), 200));
   const Motor& motor = robot.motor.left;
   const double kt = motor.torque_constant_Nm_A * motor.gear_ratio;
@@ -193,7 +193,7 @@ TEST(Confidence, NearOneIsMeasuredThere) {
   robot.limits->deceleration_m_s2 =
       torque_Nm / (0.05 * robot.total_mass_kg(0) + robot.inertia.wheel_axle_inertia_kg_m2 / 0.1);
   robot.limits->acceleration_m_s2 = 0.5 * robot.limits->deceleration_m_s2;
-  const Plan plan = planned(straight(6, soonest(0.9995)), robot);
+  const Plan plan = planned_for(straight(6, soonest(0.9995)), robot);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   EXPECT_NEAR(plan.confidence->kept_without, normal_share(3.1), 2e-4);
   EXPECT_FALSE(plan.confidence->limit_shares.empty());
@@ -226,13 +226,13 @@ TEST(Confidence, AVerdictOffersAWholeLimit) {
   const double friction_A = motor.friction_torque_Nm / (motor.torque_constant_Nm_A * motor.gear_ratio);
   for (const Side side : kSides) robot.motor[side].max_current_A = 1.08 * friction_A;
   const Objective least{.confidence = 0.95};
-  const Plan refused = planned(straight(6, least), robot);
+  const Plan refused = planned_for(straight(6, least), robot);
   ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
   ASSERT_EQ(refused.infeasibility->reason.constraint, "motor_current") << refused.message;
   const double offered_A = refused.infeasibility->reason.relaxation.at("max_current_A");
   EXPECT_GT(offered_A, robot.motor.left.max_current_A);
   for (const Side side : kSides) robot.motor[side].max_current_A = offered_A;
-  const Plan plan = planned(straight(6, least), robot);
+  const Plan plan = planned_for(straight(6, least), robot);
   EXPECT_LE(plan.status, SolveStatus::feasible) << plan.message;
 }
 
@@ -245,16 +245,17 @@ TEST(Confidence, DoesNotDependOnWhatACacheHolds) {
     return plan_mission(straight(6, std::move(objective)), {.robot = weak_robot()}, options);
   };
   for (int time = 0; time < 2; ++time) {
-    EXPECT_EQ(cached(soonest(0.95)).duration_s, planned(straight(6, soonest(0.95)), weak_robot()).duration_s);
+    EXPECT_EQ(cached(soonest(0.95)).duration_s,
+              planned_for(straight(6, soonest(0.95)), weak_robot()).duration_s);
     EXPECT_EQ(cached({.minimize = Objective::Minimize::time}).duration_s,
-              planned(straight(6, {.minimize = Objective::Minimize::time}), weak_robot()).duration_s);
+              planned_for(straight(6, {.minimize = Objective::Minimize::time}), weak_robot()).duration_s);
   }
 }
 
 TEST(Confidence, MoreOfItIsNeverFaster) {
   double before_s = 0;
   for (const double confidence : {0.6, 0.9, 0.99}) {
-    const Plan plan = planned(straight(6, soonest(confidence)), weak_robot());
+    const Plan plan = planned_for(straight(6, soonest(confidence)), weak_robot());
     ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
     EXPECT_GT(plan.duration_s, before_s);
     before_s = plan.duration_s;
@@ -266,9 +267,9 @@ TEST(Confidence, OfExactConstantsChangesNothing) {
   Robot robot = weak_robot();
   robot.uncertainty = {{"chassis_mass_kg", 0.0}, {"model_energy", 0.0}};
   Objective objective = soonest(0.95);
-  const Plan sure = planned(straight(6, objective), robot);
+  const Plan sure = planned_for(straight(6, objective), robot);
   objective.confidence.reset();
-  const Plan plain = planned(straight(6, objective), robot);
+  const Plan plain = planned_for(straight(6, objective), robot);
   ASSERT_TRUE(sure.confidence);
   EXPECT_EQ(sure.confidence->kept, 1.0);
   EXPECT_EQ(sure.energy.total_J(), plain.energy.total_J());
@@ -281,7 +282,7 @@ TEST(Confidence, NeedsTheErrorsOfTheRobot) {
     robot.uncertainty.erase("model_energy");
     if (key == "uncertainty") robot.uncertainty.clear();
     try {
-      (void)planned(straight(6, soonest(0.95)), robot);
+      (void)planned_for(straight(6, soonest(0.95)), robot);
       FAIL() << "planned without " << key;
     } catch (const ConfigError& error) {
       EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
@@ -291,16 +292,16 @@ TEST(Confidence, NeedsTheErrorsOfTheRobot) {
 
 /// A deadline that only a plan without margins keeps: the verdict says by how much it is too early.
 TEST(Confidence, AVerdictSaysWhatDeadlineIsKept) {
-  const Plan fastest = planned(straight(6, {.minimize = Objective::Minimize::time}), weak_robot());
+  const Plan fastest = planned_for(straight(6, {.minimize = Objective::Minimize::time}), weak_robot());
   const Objective tight{.deadline_s = 1.01 * fastest.duration_s, .confidence = 0.95};
-  const Plan refused = planned(straight(6, tight), weak_robot());
+  const Plan refused = planned_for(straight(6, tight), weak_robot());
   ASSERT_EQ(refused.status, SolveStatus::infeasible);
   EXPECT_NE(refused.message.find("with 95 %"), std::string::npos) << refused.message;
   ASSERT_TRUE(refused.confidence);
   EXPECT_LT(refused.confidence->kept_without, 0.95);
   Objective later = tight;
   later.deadline_s = *tight.deadline_s + refused.infeasibility->reason.amount + 1e-6;
-  const Plan kept = planned(straight(6, later), weak_robot());
+  const Plan kept = planned_for(straight(6, later), weak_robot());
   ASSERT_LE(kept.status, SolveStatus::feasible) << kept.message;
   EXPECT_GE(kept.confidence->kept_at_least, 0.95);
   ASSERT_EQ(kept.confidence->promises.front().name, "arrival");
@@ -313,13 +314,13 @@ TEST(Confidence, GuardsTheReserveByTheModelsOwnError) {
   robot.uncertainty = {{"model_energy", 0.04}};
   robot.battery.internal_resistance_ohm = 0;
   robot.power.standby_W = 1;
-  const Plan free = planned(straight(6, {}), robot);
+  const Plan free = planned_for(straight(6, {}), robot);
   const double needed_Wh = free.energy.total_J() / 3600;
   const double sigma_Wh = 0.04 * free.energy.motion_J() / 3600;
   const auto with_capacity = [&](double sigmas) {
     Robot other = robot;
     other.battery.capacity_Wh = (needed_Wh + sigmas * sigma_Wh) / (1 - robot.battery.reserve_fraction);
-    return planned(straight(6, {.confidence = 0.95}), other);
+    return planned_for(straight(6, {.confidence = 0.95}), other);
   };
   const Plan enough = with_capacity(1.9);
   ASSERT_LE(enough.status, SolveStatus::feasible) << enough.message;
@@ -336,7 +337,7 @@ TEST(Lateness, OfAHeavierRobotIsThatOfItsSlowerStart) {
   Robot robot = weak_robot();
   robot.limits->speed_m_s = 0.5;
   robot.limits->deceleration_m_s2 = 0.2;
-  const Plan plan = planned(straight(6, {.minimize = Objective::Minimize::time}), robot);
+  const Plan plan = planned_for(straight(6, {.minimize = Objective::Minimize::time}), robot);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   Robot heavy = robot;
   heavy.inertia.chassis_mass_kg *= 1.3;
