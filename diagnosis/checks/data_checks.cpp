@@ -121,12 +121,13 @@ class DataCheckSearch {
     parallel_for(runs_.size(),
                  [&](std::size_t r) { channels[r] = followed_channels(runs_[r].signals(), dataset_.robot); });
     std::map<std::vector<std::string>, std::map<std::size_t, FollowedChannel>> found;
-    for (std::size_t r = 0; r < runs_.size(); ++r)
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      if (!of_one_value && has_wild_wheels(r)) continue;
       for (FollowedChannel& channel : channels[r]) {
-        if (!of_one_value && has_wild_wheels(r)) continue;
         channel.is_dead = channel.is_dead && (channel.is_constant || !of_one_value);
         found[channel.columns].emplace(r, channel);
       }
+    }
     for (const auto& [columns, runs] : found)
       if (const std::vector<std::size_t> dead = dead_runs(runs); !dead.empty()) report_dead(runs, dead);
   }

@@ -22,7 +22,11 @@ using Samples = std::vector<double>;
 /// Values at equal steps of kLagStep_s; empty where a channel is absent.
 Samples at_equal_steps(const Samples& time_s, const Samples& values) {
   Samples steps;
+  constexpr double kMostSteps =
+      20.0;  // per sample: a log with fewer samples, or another unit of time, has none
   if (values.size() != time_s.size() || time_s.size() < 2) return steps;
+  if (!(time_s.back() - time_s.front() < kMostSteps * kLagStep_s * static_cast<double>(time_s.size())))
+    return steps;
   std::size_t i = 0;
   for (double t = time_s.front(); t <= time_s.back(); t += kLagStep_s) {
     while (i + 1 < time_s.size() && time_s[i + 1] <= t) ++i;

@@ -16,6 +16,7 @@
 namespace joulepath {
 namespace {
 
+constexpr double kFewest_Hz = 10.0;
 constexpr double kCertainlyLong_s = 10.0;  ///< a log that is too short by its samples, not by its time
 
 /// Share of the runs that have a channel.
@@ -175,7 +176,9 @@ void refuse_short_runs(const Dataset& dataset) {
               hint;
   for (const Implausible& channel : implausible_channels(longest, dataset.robot))
     append_item(found, channel.found), append_item(hint, channel.hint);
-  if (const double length_s = log_length_s(longest.log); length_s > kCertainlyLong_s)
+  const double length_s = log_length_s(longest.log);
+  if (hint.empty() && length_s > kCertainlyLong_s &&
+      static_cast<double>(longest.log.size()) < kFewest_Hz * length_s)
     append_item(hint, "about " + four_digits(static_cast<double>(longest.log.size()) / length_s) +
                           " samples a second are too few: record at 20 to 100 Hz");
   throw ConfigError({longest.mark, "runs", found, "a log with wheel speeds and " + needed_text(), hint});

@@ -58,6 +58,7 @@ void write_constant_errors(const ConstantErrors& errors, const std::vector<Nuisa
   std::vector<std::string> keys;
   Sided<std::vector<Eigen::Index>> rows;
   for (const auto& [key, error] : errors_by_key(errors, nuisances, state)) {
+    if (!(error.sigma > 0)) continue;  // not measured
     state_sigma(key, error.sigma, robot);
     keys.push_back(key);
     for (const Side side : kSides) rows[side].push_back(error.row[side]);

@@ -6,16 +6,17 @@ namespace joulepath {
 namespace {
 
 /// (measured - predicted)/predicted energy of the motion, of the held-out runs that measure it.
-std::vector<double> held_out_errors(const Examination& x, const JudgedModel& model) {
+std::vector<MotionEnergyError> held_out_errors(const Examination& x, const JudgedModel& model) {
   const std::vector<RunEnergy> energies = judged_energies(x, model);
-  std::vector<double> errors;
+  std::vector<MotionEnergyError> errors;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const RunSignals& run = model.signals[r];
     const double standby_J = measures_motors(run) ? 0.0
                                                   : x.dataset.robot.power.standby_W * run.period_s *
                                                         static_cast<double>(run.size());
     const double motion_J = energies[r].predicted_J - standby_J;
-    if (energies[r].measured_J != 0 && motion_J > 0) errors.push_back(-energies[r].gap_J() / motion_J);
+    if (energies[r].measured_J != 0 && motion_J > 0)
+      errors.push_back({-energies[r].gap_J() / motion_J, motion_J});
   }
   return errors;
 }

@@ -63,7 +63,8 @@ LONGEST_START_S = 300.0  # to the greatest speed, at the steepest
 def _doubt_times(at: np.ndarray, speed: np.ndarray) -> None:
     """Warns of a clock in ms: a motion that takes minutes to come to speed."""
     steepest, most = np.abs(np.diff(speed) / np.diff(at)).max(), np.abs(speed).max()
-    if 0 < LONGEST_START_S * steepest < most:
+    stands = np.abs(speed).min() < 0.1 * most
+    if stands and 0 < LONGEST_START_S * steepest < most:
         warnings.warn(f"t: the motion needs {most / steepest:.4g} s to come to {most:.4g} m/s at its steepest; are the times "
                       "in ms?", stacklevel=3)
 

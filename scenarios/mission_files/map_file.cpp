@@ -16,7 +16,8 @@ constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in
 
 constexpr double kCoarsestCell_m = 1.0;
 constexpr double kMostOccupied = 0.75;  ///< of the cells that are free or occupied
-constexpr double kFullTurn_rad = 6.2832;
+constexpr double kMostYaw_rad =
+    10.0;  ///< more than a turn: it may be written so, but not in radians by chance
 
 enum class Mode { trinary, scale, raw };
 
@@ -54,22 +55,35 @@ Interpretation read_interpretation(const Node& root) {
   return meaning;
 }
 
-/// Floors are mostly free: where most of the known cells are occupied, black and white may be exchanged.
+/// The cells of an image's edge, or all of them, that have a value.
+double count_of(const Image& image, const Interpretation& meaning, std::int8_t value, bool edge) {
+  double count = 0;
+  for (int row = 0; row < image.height; ++row)
+    for (int column = 0; column < image.width; ++column) {
+      const bool at_edge = row == 0 || column == 0 || row + 1 == image.height || column + 1 == image.width;
+      if (edge && !at_edge) continue;
+      const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(column);
+      const bool transparent = !image.transparent.empty() && image.transparent[pixel];
+      count += cell_value(image.shade[pixel], transparent, meaning) == value ? 1 : 0;
+    }
+  return count;
+}
+
+/// Floors are mostly free, with walls or unknown cells around them: where most of the known cells are
+/// occupied and the edge is free, black and white may be exchanged.
 std::string negate_note(const Image& image, const Interpretation& meaning) {
-  const auto count = [&](std::int8_t value) {
-    return static_cast<double>(std::ranges::count_if(
-        image.shade, [&](double shade) { return cell_value(shade, false, meaning) == value; }));
-  };
-  const double occupied = count(100), free = count(0);
+  const double occupied = count_of(image, meaning, 100, false), free = count_of(image, meaning, 0, false);
   if (!(occupied > kMostOccupied * (occupied + free))) return {};
+  if (count_of(image, meaning, 100, true) > count_of(image, meaning, 0, true)) return {};
   return "negate: " + std::string(meaning.negate ? "1" : "0") + " makes " +
          three_digits(100.0 * occupied / (occupied + free)) +
          " % of the known cells occupied; are dark and light cells exchanged?";
 }
 
 void check_yaw(const Node& yaw) {
-  if (std::abs(yaw.number()) > kFullTurn_rad)
-    yaw.fail("a yaw from -6.2832 to 6.2832", "a yaw is within one turn; is it in degrees?");
+  if (std::abs(yaw.number()) > kMostYaw_rad)
+    yaw.fail("a yaw from -10 to 10", "in radians; is it in degrees?");
 }
 
 }  // namespace

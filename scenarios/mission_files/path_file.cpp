@@ -18,7 +18,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kFarPoints_m = 100.0;  ///< between neighbors of a path in a building or a yard
+constexpr double kFarPoints_m = 300.0;  ///< between neighbors of a path in a building or a yard
 
 /// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
 constexpr double kShareOfSpacing = 0.6;
@@ -117,7 +117,7 @@ void note_far_points(const std::vector<Pose>& points, std::vector<std::string>* 
   std::vector<double> apart_m;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     apart_m.push_back(std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m));
-  if (apart_m.empty() || notes == nullptr) return;
+  if (apart_m.size() < 2 || notes == nullptr) return;
   const auto middle = apart_m.begin() + static_cast<std::ptrdiff_t>(apart_m.size() / 2);
   std::ranges::nth_element(apart_m, middle);
   if (*middle > kFarPoints_m)

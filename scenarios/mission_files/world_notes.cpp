@@ -11,6 +11,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kMostSpeedCap = 10.0;  ///< over the robot's limit: mm/s, percent and rpm are beyond
+constexpr double kUsualCell_m = 0.1;    ///< of maps of buildings, at most
 constexpr double kMostOutside = 0.5;    ///< of the nodes of a route graph
 
 constexpr const char* kCapKeys[] = {"speed_m_s", "maxSpeed", "maximumSpeed"};  ///< of missions, of orders
@@ -21,19 +22,19 @@ std::string at_mark(const SourceMark& mark) {
   return mark.file.empty() ? "" : mark.file + ":" + std::to_string(mark.line) + ": ";
 }
 
-/// From the axle to the nearest edge of the outline; infinite without an outline.
-double narrowest_m(const Footprint& footprint) {
-  if (footprint.polygon_m.empty()) return footprint.radius_m > 0.0 ? footprint.radius_m : kNoLimit;
-  double widest_m = 0.0;
-  for (const auto& corner : footprint.polygon_m) widest_m = std::max(widest_m, std::abs(corner[1]));
-  return widest_m;
+/// Width of the outline; infinite without an outline.
+double width_m(const Footprint& footprint) {
+  if (footprint.polygon_m.empty()) return footprint.radius_m > 0.0 ? 2 * footprint.radius_m : kNoLimit;
+  const auto [right, left] =
+      std::ranges::minmax(footprint.polygon_m, {}, [](const auto& corner) { return corner[1]; });
+  return left[1] - right[1];
 }
 
 void note_cells(const MissionRequest& mission, const MissionWorld& world, WorldNotes& notes) {
-  const double half_width_m = narrowest_m(world.robot.footprint);
-  if (!world.map || world.map->resolution_m <= half_width_m) return;
+  const double robot_m = width_m(world.robot.footprint);
+  if (!world.map || world.map->resolution_m <= kUsualCell_m || world.map->resolution_m < robot_m) return;
   notes.push_back(mission.map_file + ": resolution: a cell of " + four_digits(world.map->resolution_m) +
-                  " m is as wide as the robot (" + four_digits(2 * half_width_m) +
+                  " m is as wide as the robot (" + four_digits(robot_m) +
                   " m); usual maps have 0.02 to 0.1 meters per pixel");
 }
 

@@ -22,10 +22,11 @@ constexpr double kMostTopSpeed = 5.0;               ///< by voltage, over the sp
 constexpr double kLeastTopSpeed = 0.5;              ///< the same
 constexpr double kMostStallCurrent = 30.0;          ///< max_voltage_V/resistance_ohm over max_current_A
 constexpr double kAlwaysPossibleStandby_W = 200.0;  ///< a computer with a graphics card on a small robot
-constexpr double kLeastEnergy_Wh_kg = 1.0;          ///< of the whole robot; supercapacitors have less
-constexpr double kMostMotorVoltage = 1.5;           ///< over the battery's voltage
-constexpr double kLeastRolling = 0.002;             ///< friction over weight: steel wheels on rails
-constexpr double kGreatestReach = 10.0;             ///< of the outline, in half tracks
+constexpr double kHeavy_kg = 300.0;         ///< vehicles that charge at every stop may have small batteries
+constexpr double kLeastEnergy_Wh_kg = 1.0;  ///< of the whole robot; supercapacitors have less
+constexpr double kMostMotorVoltage = 1.5;   ///< over the battery's voltage
+constexpr double kLeastRolling = 0.002;     ///< friction over weight: steel wheels on rails
+constexpr double kGreatestReach = 10.0;     ///< of the outline, in half tracks
 
 /// Greatest distance of the outline from the chassis' center of mass.
 double reach_m(const Robot& robot) {
@@ -74,8 +75,9 @@ void note_battery(const Robot& robot, const std::string& on_robot, Notes& notes)
   const Battery& battery = robot.battery;
   notes.over("battery.capacity_Wh", battery.capacity_Wh, kMostEnergy_Wh_kg * robot.total_mass_kg(0.0),
              "Wh" + on_robot, "is it in J, or in mAh?");
-  notes.under("battery.capacity_Wh", battery.capacity_Wh, kLeastEnergy_Wh_kg * robot.total_mass_kg(0.0),
-              "Wh" + on_robot, "is it in Ah, or in kWh?");
+  if (robot.total_mass_kg(0.0) < kHeavy_kg)
+    notes.under("battery.capacity_Wh", battery.capacity_Wh, kLeastEnergy_Wh_kg * robot.total_mass_kg(0.0),
+                "Wh" + on_robot, "is it in Ah, or in kWh?");
   const double voltage_V = std::min(robot.motor.left.max_voltage_V, robot.motor.right.max_voltage_V);
   notes.over("motor.max_voltage_V", voltage_V, kMostMotorVoltage * battery.open_circuit_voltage_V,
              "V with battery.open_circuit_voltage_V " + four_digits(battery.open_circuit_voltage_V),
@@ -84,10 +86,14 @@ void note_battery(const Robot& robot, const std::string& on_robot, Notes& notes)
 
 /// Friction that is smaller than the rolling resistance of any wheel under the robot's weight.
 void note_friction(const Robot& robot, const std::string& on_robot, Notes& notes) {
-  const bool rolls_apart = std::ranges::any_of(
-      robot.effects, [](const EffectSetting& effect) { return effect.name == "rolling_resistance"; });
-  if (rolls_apart) return;
+  const bool resists_apart = std::ranges::any_of(robot.effects, [](const EffectSetting& effect) {
+    return effect.name == "rolling_resistance" || effect.name == "coulomb_friction";
+  });
+  if (resists_apart) return;
   for (const Side side : kSides) {
+    if (robot.motor[side].gear_ratio <= 1) continue;  // at the shaft it is the same
+    if (side == Side::right && robot.motor.right.friction_torque_Nm == robot.motor.left.friction_torque_Nm)
+      continue;
     const double weight_N = 0.5 * robot.total_mass_kg(0.0) * kGravity_m_s2;
     notes.under("motor.friction_torque_Nm, " + std::string(side_name(side)),
                 robot.motor[side].friction_torque_Nm,

@@ -179,7 +179,7 @@ TEST(WrittenUncertainty, ModelErrorIsThatOfRunsWhichServedForNoConstant) {
       const Robot truth = drawn_robot(random);
       const Dataset dataset = runs_of(truth, kRuns, hidden, random);
       for (const joulepath::Run& run : dataset.runs)
-        true_square += std::pow(*motion_energy_error(run, truth), 2) / (kSets * kRuns);
+        true_square += std::pow(motion_energy_error(run, truth)->error, 2) / (kSets * kRuns);
       const Robot robot = calibrate(dataset, CalibrationMethod::full).robot;
       found += *read_back(robot).model_energy_sigma() / kSets;
     }
@@ -190,6 +190,16 @@ TEST(WrittenUncertainty, ModelErrorIsThatOfRunsWhichServedForNoConstant) {
     const double sampling = 2.6 / std::sqrt(2.0 * kSets * (kRuns - 1)), students_t = 2.131 / kNormal95;
     EXPECT_NEAR(found / std::sqrt(true_square), students_t, sampling * students_t);
   }
+}
+
+/// The offset of a sensor is many times the energy of a robot that stands.
+TEST(WrittenUncertainty, ARunThatHardlyMovesDoesNotCount) {
+  Robot robot = nomad();
+  std::vector<MotionEnergyError> errors(8, {.error = 0.02, .energy_J = 100});
+  errors.push_back({.error = 49, .energy_J = 0.01});
+  (void)write_model_energy(errors, robot);
+  EXPECT_GE(robot.uncertainty.at("model_energy"), 0.02);
+  EXPECT_LT(robot.uncertainty.at("model_energy"), 0.03);
 }
 
 TEST(WrittenUncertainty, FewRunsStateNoModelError) {
