@@ -116,7 +116,8 @@ void print_confidence(std::ostream& stream, const Plan& plan) {
          << " drawn robots keep all promises (asked " << figure(100 * account.asked, 4) << " %, shown "
          << figure(100 * account.kept_at_least, 4) << " %): " << promises_text(account) << "\n";
   if (account.limit_shares.empty() && account.reserve_margin == 0) return;
-  stream << "  confidence costs " << figure(plan.energy.total_J() - account.energy_without_J, 3) << " J and "
+  stream << "  confidence changes the energy by "
+         << figure(plan.energy.total_J() - account.energy_without_J, 3) << " J and the time by "
          << figure(plan.duration_s - account.duration_without_s, 3) << " s; without margins "
          << figure(100 * account.kept_without, 3) << " % of robots keep their promises\n";
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kDraws = 4000;  ///< of one sample; more where the confidence is near 1
 constexpr double kFailuresSeen = 45;  ///< draws that fail at the asked confidence, at least
-constexpr int kRounds = 6, kTrials = 3;
+constexpr int kRounds = 8, kTrials = 2;
 constexpr double kClose = 0.006;  ///< share of draws that a plan may keep beyond its aim
 /// The plan without margins and each trial are judged once: together they are wrong with at most 5 %.
 constexpr double kErrorOfOne = 0.05 / (1 + kTrials);
@@ -62,6 +62,13 @@ void set_limit(Robot& robot, const Limit& row, double value) {
     if (row.field == nullptr) robot.motor[side].*row.rating = value;
 }
 
+Margins between(const Margins& a, const Margins& b) {
+  Margins middle;
+  for (std::size_t i = 0; i < kForceLimits; ++i) middle.share[i] = 0.5 * (a.share[i] + b.share[i]);
+  middle.reserve = 0.5 * (a.reserve + b.reserve);
+  return middle;
+}
+
 /// A mission whose plan is found in rounds.
 class ConfidentPlanner {
  public:
@@ -79,7 +86,7 @@ class ConfidentPlanner {
 
   Plan plan() {
     Plan plain = plan_once_(mission_, world_, options_);
-    if (!is_driven(plain)) return plain;
+    if (!is_driven(plain)) return without_confidence(std::move(plain));
     Sample sample = judge_.judged(plain, ++seed_);
     account_ = {.asked = confidence_,
                 .draws = draws_,
@@ -89,7 +96,7 @@ class ConfidentPlanner {
     if (is_shown(sample)) return with_account(std::move(plain), sample);
     drive_on_ways_of(std::move(plain));
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
-      if (auto refused = find_margins()) return as_verdict(*std::move(refused));
+      if (auto refused = find_margins()) return as_verdict(with_slack(*std::move(refused)));
       Plan plan = plan_with(margins_, options_);
       if (!is_driven(plan)) return as_verdict(std::move(plan));
       if (has_fixed_ways_) take_choices(plan, chosen_);
@@ -152,36 +159,48 @@ class ConfidentPlanner {
     return refused;
   }
 
+  /// Margins between those with which a plan keeps too little and those with which it keeps enough, or which
+  /// no plan leaves; from the joint quantile where there are none yet.
   std::optional<Plan> margins_on_ways() {
     Plan plan = chosen_;
-    double aim = aim_, before = aim_;
+    double aim = aim_;
     Sample sample = judge_.estimated(plan);
+    Margins too_little;
+    std::optional<Margins> enough, too_much;
+    std::optional<Plan> refused;
     for (int round = 0; round < kRounds; ++round) {
-      margins_ = margins_for(sample.drawn, sample.nominal, reserve(), aim);
-      Plan next = plan_with(margins_, quick());
-      if (!is_driven(next)) {
-        if (round == 0 || round + 1 == kRounds) return next;
-        aim = 0.5 * (aim + before);  // it overshot
+      if (enough || too_much)
+        margins_ = between(too_little, enough ? *enough : *too_much);
+      else
+        margins_ = margins_for(sample.drawn, sample.nominal, reserve(), aim);
+      plan = plan_with(margins_, quick());
+      if (!is_driven(plan)) {
+        too_much = margins_;
+        refused = std::move(plan);
         continue;
       }
-      plan = std::move(next);
       sample = judge_.estimated(plan);
       const double share = sample.share();
-      if (share >= aim_ && share <= aim_ + kClose) break;
-      before = std::exchange(aim, std::clamp(aim + aim_ - share, confidence_, 1.0));
+      if (share >= aim_ && share <= aim_ + kClose) return std::nullopt;
+      (share < aim_ ? too_little : enough.emplace()) = margins_;
+      aim = std::clamp(aim + aim_ - share, confidence_, 1.0);
     }
+    if (!enough) return refused;
+    margins_ = *enough;
     return std::nullopt;
   }
 
   /// The margins of the fastest drive on these ways that keeps the confidence, for times near its own; false
   /// where there is none.
   bool take_margins_of_fastest() {
+    if (std::exchange(tried_fastest_, true)) return false;
     MissionRequest fastest = given_;
     fastest.objective = {.minimize = Objective::Minimize::time, .confidence = confidence_};
     for (LegRequest& leg : fastest.legs) leg.deadline_s.reset(), leg.duration_s.reset();
     ConfidentPlanner planner(fastest, world_, quick(), plan_once_);
     planner.aim_ = std::min(aim_ + kClose, 1.0);
     planner.seed_ = seed_;
+    planner.offers_ = false;
     if (!is_driven(planner.plan())) return false;
     margins_ = planner.margins_;
     seed_ = planner.seed_;
@@ -230,6 +249,24 @@ class ConfidentPlanner {
     }
   }
 
+  /// What a verdict on the reserve offers is judged again when it is planned with: it has some slack.
+  Plan with_slack(Plan refused) {
+    if (!refused.infeasibility || refused.infeasibility->reason.constraint != "battery_reserve")
+      return refused;
+    const Sample sample = judge_.estimated(chosen_);
+    margins_ = margins_for(sample.drawn, sample.nominal, reserve(), std::min(aim_ + 2 * kClose, 1.0));
+    Plan slack = plan_with(margins_, quick());
+    return is_driven(slack) ? refused : slack;
+  }
+
+  static Plan without_confidence(Plan plain) {
+    if (plain.infeasibility) {
+      plain.infeasibility->reason.message += "; this is without the confidence that is asked for";
+      plain.message = plain.infeasibility->reason.message;
+    }
+    return plain;
+  }
+
   /// A plan that leaves the margins of its promises is not possible: so says its verdict.
   Plan as_verdict(Plan refused) const {
     if (refused.infeasibility) {
@@ -241,6 +278,11 @@ class ConfidentPlanner {
     }
     refused.confidence = account_;
     return refused;
+  }
+
+  double shown_without() const {
+    const double kept = std::round(account_.kept_without * static_cast<double>(draws_));
+    return kept_at_least(static_cast<std::size_t>(kept), draws_, kErrorOfOne);
   }
 
   Plan not_shown() const {
@@ -267,7 +309,7 @@ class ConfidentPlanner {
   MissionRequest given_{};  ///< the mission on the ways of `chosen_`
   Plan chosen_{};           ///< without margins
   bool has_fixed_ways_{};
-  bool tried_others_{};
+  bool tried_others_{}, tried_fastest_{};
   bool offers_{true};
   Margins margins_{};
   ConfidenceAccount account_{};
