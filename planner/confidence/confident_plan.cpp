@@ -229,7 +229,7 @@ class ConfidentPlanner {
   /// The relaxation of a limit that was planned with a share of it is one of the whole limit, with which the
   /// mission is planned; none where no value near it is enough.
   void offer_whole_limits(Infeasibility& reason) const {
-    constexpr std::array<double, 4> kMore{1, 1.02, 1.05, 1.1};
+    constexpr std::array<double, 6> kMore{1, 1.02, 1.05, 1.1, 1.2, 1.4};
     for (const auto& [name, share] : margins_.limit_shares()) {
       const Limit& row = *limit_named(name);
       if (reason.constraint == name) reason.amount /= share;
