@@ -273,7 +273,9 @@ class ConfidentPlanner {
       Infeasibility& reason = refused.infeasibility->reason;
       if (offers_) offer_whole_limits(reason);
       reason.message = "with " + percent(confidence_) + ": " + reason.message +
-                       "; the plan without margins keeps its promises with " + percent(account_.kept_without);
+                       "; the plan without margins keeps its promises with " +
+                       percent(account_.kept_without) + " of the draws, which shows " +
+                       percent(shown_without());
       refused.message = reason.message;
     }
     refused.confidence = account_;
