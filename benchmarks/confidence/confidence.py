@@ -243,7 +243,7 @@ def page(results, note):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", default=str(ROOT / "build/release/bin/joulepath"))
-    parser.add_argument("--machines", type=int, default=400)
+    parser.add_argument("--machines", type=int, default=200)
     parser.add_argument("--rows", type=pathlib.Path, default=ROOT / "build/confidence.jsonl", help="answers so far: a further call goes on")
     parser.add_argument("--note", default="")
     parser.add_argument("--out", type=pathlib.Path)
