@@ -18,7 +18,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kFarPoints_m = 300.0;  ///< between neighbors of a path in a building or a yard
+constexpr double kFarPoints_m = 200.0;  ///< between neighbors of a path in a building or a yard
 
 /// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
 constexpr double kShareOfSpacing = 0.6;
