@@ -1,12 +1,12 @@
 #include "model/model_error.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
 
 #include "model/normal_quantiles.hpp"
 #include "model/printable.hpp"
+#include "model/student_t.hpp"
 
 namespace joulepath {
 namespace {
@@ -42,7 +42,7 @@ std::string write_model_energy(std::vector<MotionEnergyError> errors, Robot& rob
            std::to_string(kLeastHeldOutRuns) + " are needed" +
            (robot.model_energy_sigma() ? "; the robot file's value stays" : "");
   const double n = static_cast<double>(count), rms = std::sqrt(sum_of_error_squares(errors) / n);
-  const double wider = boost::math::quantile(boost::math::students_t(n - 1), 0.975) / kNormal95;
+  const double wider = student_t_975(n - 1) / kNormal95;
   const double sigma = std::min(wider * rms, 1.0);
   robot.uncertainty["model_energy"] = sigma;
   return "model_energy " + four_digits(sigma) + ": the energies of " + runs + " are off by " +

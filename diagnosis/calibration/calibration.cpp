@@ -12,6 +12,7 @@
 #include "diagnosis/estimation/model_energy.hpp"
 #include "model/model_error.hpp"
 #include "model/nuisance_correlation.hpp"
+#include "model/student_t.hpp"
 
 namespace joulepath {
 namespace {

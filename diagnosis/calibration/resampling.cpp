@@ -1,7 +1,5 @@
 #include "diagnosis/calibration/resampling.hpp"
 
-#include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 // Method: [EfronStein1981]
@@ -23,10 +21,6 @@ Resampled jackknife(std::size_t units, const std::function<std::vector<double>(s
   for (Eigen::Index k = 0; k < size; ++k)
     result.standard_deviation.push_back(std::sqrt(result.covariance(k, k)));
   return result;
-}
-
-double student_t_975(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t(std::max(1.0, degrees_of_freedom)), 0.975);
 }
 
 }  // namespace joulepath::calibration

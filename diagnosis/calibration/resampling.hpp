@@ -22,7 +22,4 @@ struct Resampled {
 [[nodiscard]] Resampled jackknife(std::size_t units,
                                   const std::function<std::vector<double>(std::size_t)>& estimate);
 
-/// 97.5 % quantile of Student's t.
-[[nodiscard]] double student_t_975(double degrees_of_freedom);
-
 }  // namespace joulepath::calibration

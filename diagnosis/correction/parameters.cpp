@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
 
 #include "diagnosis/thresholds.hpp"
+#include "model/student_t.hpp"
 // Design: docs/decisions/0507-cross-fitting.md
 // Method: [Davies1977], [Wald1943]
 namespace joulepath {
@@ -103,7 +103,7 @@ double parameter_sd(const Refit& fitted, std::size_t effect, const std::string& 
 /// Half a 95 % interval, for the number of runs that it rests on.
 double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
   return std::hypot(parameter_sd(fitted, effect, name), form_sd(fitted.state.effects[effect], name)) *
-         boost::math::quantile(boost::math::students_t(degrees_of(fitted)), 0.975);
+         student_t_975(degrees_of(fitted));
 }
 
 /// An effect and its parameter, or "friction_torque_Nm (left)".

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +11,7 @@
 #include "diagnosis/signals/site.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/normal_quantiles.hpp"
+#include "model/student_t.hpp"
 
 namespace joulepath {
 namespace {
@@ -34,7 +34,7 @@ double shrink(const std::vector<RunEnergy>& before, const std::vector<RunEnergy>
 double small_sample_factor(std::size_t runs) {
   const auto n = static_cast<double>(runs);
   if (runs < 2) return 1.0;
-  return boost::math::quantile(boost::math::students_t(n - 1), 0.975) / kNormal95 * std::sqrt(n / (n - 1));
+  return student_t_975(n - 1) / kNormal95 * std::sqrt(n / (n - 1));
 }
 
 /// 95 % interval of the shrink on another day's runs: runs resampled about the shrink that is said.

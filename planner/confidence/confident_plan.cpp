@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "model/config_error.hpp"
+#include "model/printable.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/confidence/promises.hpp"
 
@@ -31,11 +31,7 @@ double aim_for(double confidence, std::size_t draws) {
   return std::min(confidence + kDoubtSigmas * sigma, 1 - 2 / static_cast<double>(draws));
 }
 
-std::string percent(double share) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%.4g %%", 100 * share);
-  return text;
-}
+std::string percent(double share) { return four_digits(100 * share) + " %"; }
 
 /// What is told about the choice of ways, from the plan that chose them.
 void take_choices(Plan& plan, const Plan& chosen) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "diagnosis/calibration/resampling.hpp"
+#include "model/student_t.hpp"
 
 namespace joulepath::calibration {
 namespace {
