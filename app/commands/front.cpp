@@ -124,8 +124,11 @@ class FrontCommand : public Command {
     fastest.objective.confidence = confidence_;
     const Plan held = plan_mission(fastest, world, options_.plan);
     if (held.status > SolveStatus::feasible) return {.reason = held.message};
-    SureFront sure{.limit_shares = held.confidence->limit_shares};
-    const Plan plan = plan_mission(mission, world, with_limit_shares(options_.plan, sure.limit_shares));
+    SureFront sure{.limit_shares = held.confidence->limit_shares,
+                   .reserve_margin = held.confidence->reserve_margin};
+    MissionWorld careful = world;
+    careful.robot.battery.reserve_fraction += sure.reserve_margin;
+    const Plan plan = plan_mission(mission, careful, with_limit_shares(options_.plan, sure.limit_shares));
     if (plan.status > SolveStatus::feasible) return {.reason = plan.message};
     sure.points =
         energy_time_front(planned_stretches(plan), points_, open ? planned_price_W(plan) : 0.0).points;

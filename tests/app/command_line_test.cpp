@@ -334,6 +334,25 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
   EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
 }
 
+/// The second curve leaves margins, of the battery too: its fastest drive is later.
+TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");
+  std::string robot = text_of(kRobot);
+  const std::string current = "max_current_A: 8.0";
+  robot.replace(robot.find(current), current.size(), "max_current_A: 0.55");
+  const auto result =
+      run_program(scratch, "front " + path + " --robot " + scratch.write("robot.yaml", robot) +
+                               " --nodes 40 --points 3 --baselines 0 --confidence 0.9 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto front = nlohmann::json::parse(result.out);
+  const auto& sure = front["confidence"];
+  EXPECT_EQ(sure["asked"], 0.9);
+  EXPECT_LT(sure["limit_shares"]["motor_current"], 1.0);
+  EXPECT_GT(sure["reserve_margin_fraction"], 0.0);
+  EXPECT_GT(sure["points"][0]["duration_s"], front["points"][0]["duration_s"]);
+}
+
 TEST(CommandLine, AProofIsToldWithWhatItIsAbout) {
   const ScratchDirectory scratch;
   const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n");
