@@ -1,8 +1,9 @@
-// Replacements for the parts that the browser build leaves out, because their libraries are missing: Ipopt,
-// OMPL, yaml-cpp, libpng. The page does not use them; a question that needs them gets an error
-// message.
+// Replacements for the parts that the browser build leaves out: those whose libraries are missing (Ipopt, OMPL,
+// yaml-cpp, libpng), and plans with a stated confidence, to keep the page small. A question that needs them gets
+// an error message.
 #include <cstdlib>
 
+#include "planner/confidence/confident_plan.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/path/search/search.hpp"
 #include "scenarios/mission_files/map_file.hpp"
@@ -34,6 +35,10 @@ JerkSolution solve_with_ipopt(const JerkProgram&, const IpoptOptions&) {
 }
 
 }  // namespace nlp
+
+Plan confident_plan(const MissionRequest&, const MissionWorld&, const PlanOptions&, const PlanOnce&) {
+  refuse("a plan with a stated confidence");
+}
 
 SearchResult search_polyline(const FreeSpace&, const SearchRequest&) { refuse("a search for a route"); }
 double polyline_cost(const std::vector<Point2>&, const TravelCost&) { refuse("a search for a route"); }
