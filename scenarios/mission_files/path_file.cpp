@@ -133,7 +133,7 @@ WaypointPath fitted(const Follow& follow, const std::vector<Pose>& points, std::
                     std::vector<std::string>* notes) {
   note_far_points(points, notes);
   WaypointPath close = follow(tolerance_m.value_or(kWaypointTolerance_m));
-  if (tolerance_m || close.defect || points.size() < 2) return close;
+  if (tolerance_m || close.defect || close.exact || points.size() < 2) return close;
   double spacing_m = 0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     spacing_m += std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m);

@@ -5,14 +5,19 @@
 #include <numbers>
 
 #include "planner/path/shape/bezier_chain.hpp"
+#include "planner/path/shape/direction_fit.hpp"
 #include "planner/path/shape/smoothing_spline.hpp"
 // Design: docs/decisions/0200-paths.md
 namespace joulepath {
 namespace {
 
 constexpr double kStands_m = 1e-4;        ///< the robot stands, or turns in place
+constexpr double kStandsExact_m = 1e-6;   ///< the same, of exact poses
 constexpr double kAlongMotion_rad = 0.5;  ///< a heading that says how the robot drives
 constexpr double kShareAlongMotion = 0.9;
+constexpr double kExact_m = 2e-3;       ///< a planner's poses are so exact
+constexpr double kTurnLength_m = 0.25;  ///< of turns compared with ways
+constexpr double kJump_m = 0.005, kJump_rad = 0.2;
 constexpr double kTurnsHere_rad = 0.02;  ///< a change of heading at one place that is no rounding
 
 double moved_m(const Pose& from, const Pose& to) { return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m); }
@@ -46,13 +51,25 @@ struct Stretches {
   double turned_rad{};
 };
 
-Stretches stretches_of(const std::vector<Pose>& poses) {
+/// Whether the robot stopped between two steps of exact poses: it turns otherwise after a few millimeters.
+bool stops_between(const Pose& before, const Pose& here, const Pose& after) {
+  const auto turn_per_m = [](const Pose& from, const Pose& to) {
+    return std::atan2(kTurnLength_m * wrapped_angle_rad(to.heading_rad - from.heading_rad),
+                      moved_m(from, to));
+  };
+  return moved_m(before, here) + moved_m(here, after) < kJump_m &&
+         std::abs(turn_per_m(here, after) - turn_per_m(before, here)) > kJump_rad;
+}
+
+/// `exact`: poses of a planner.
+Stretches stretches_of(const std::vector<Pose>& poses, bool exact) {
+  const double stands_m = exact ? kStandsExact_m : kStands_m;
   Stretches result;
   double turned_rad = 0;
   Pose here = poses.front(), arrived = here;  // the same place, before and after a turn there
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Pose& next = poses[i];
-    if (moved_m(here, next) <= kStands_m) {
+    if (moved_m(here, next) <= stands_m) {
       turned_rad += wrapped_angle_rad(next.heading_rad - here.heading_rad);
       here.heading_rad = next.heading_rad;
       continue;
@@ -60,7 +77,8 @@ Stretches stretches_of(const std::vector<Pose>& poses) {
     const Direction direction =
         std::cos(off_heading_rad(here, next)) > 0 ? Direction::forward : Direction::reverse;
     const bool goes_on = !result.all.empty() && result.all.back().direction == direction &&
-                         std::abs(turned_rad) < kTurnsHere_rad;
+                         std::abs(turned_rad) < kTurnsHere_rad &&
+                         !(exact && stops_between(*(result.all.back().poses.end() - 2), here, next));
     if (!goes_on) {
       const bool turns = std::abs(turned_rad) >= kTurnsHere_rad;
       result.all.push_back({turned_rad, direction, {turns ? here : arrived}});
@@ -82,8 +100,16 @@ void append_turn(Path& path, const Pose& from, double heading_rad, double turned
   if (std::abs(angle_rad) > 1e-9) path.pieces.emplace_back(TurnInPlace{start, angle_rad});
 }
 
+/// The curve along exact poses of a stretch; nothing where they are not exact.
+std::optional<Curve> exact_curve_along(const Stretch& stretch, double tolerance_m) {
+  std::vector<Pose> tangents = stretch.poses;
+  if (stretch.direction == Direction::reverse)
+    for (Pose& pose : tangents) pose.heading_rad += std::numbers::pi;
+  return direction_fit(tangents, std::min(tolerance_m, kExact_m), stretch.direction);
+}
+
 /// The curve along a stretch; nothing where no spline keeps its places and headings.
-std::optional<Curve> curve_along(const Stretch& stretch, double tolerance_m) {
+std::optional<Curve> smooth_curve_along(const Stretch& stretch, double tolerance_m) {
   std::vector<Point2> points_m, directions;
   const double sign = stretch.direction == Direction::forward ? 1.0 : -1.0;
   for (const Pose& pose : stretch.poses) {
@@ -109,21 +135,36 @@ WaypointPath along_places(const std::vector<Pose>& poses, double tolerance_m) {
   return curve_through(points_m, tolerance_m);
 }
 
+/// Curves along the stretches between places where the robot stands, and the turns there; nothing where a
+/// stretch has no curve.
+template <class CurveAlong>
+std::optional<Path> joined(const std::vector<Pose>& poses, bool exact, const CurveAlong& curve_along) {
+  Path path;
+  const Stretches stretches = stretches_of(poses, exact);
+  for (const Stretch& stretch : stretches.all) {
+    const std::optional<Curve> curve = curve_along(stretch);
+    if (!curve) return std::nullopt;
+    const bool turns = !path.pieces.empty() || std::abs(stretch.turned_rad) >= kTurnsHere_rad;
+    if (turns) append_turn(path, poses.front(), curve->at(0).pose.heading_rad, stretch.turned_rad);
+    path.pieces.emplace_back(*curve);
+  }
+  if (path.pieces.empty() || std::abs(stretches.turned_rad) >= kTurnsHere_rad)
+    append_turn(path, poses.front(), poses.back().heading_rad, stretches.turned_rad);
+  return path;
+}
+
 }  // namespace
 
 WaypointPath path_along_poses(const std::vector<Pose>& poses, double tolerance_m) {
   if (!headings_tell(poses)) return along_places(poses, tolerance_m);
-  WaypointPath along;
-  const Stretches stretches = stretches_of(poses);
-  for (const Stretch& stretch : stretches.all) {
-    const std::optional<Curve> curve = curve_along(stretch, tolerance_m);
-    if (!curve) return along_places(poses, tolerance_m);
-    const bool turns = !along.path.pieces.empty() || std::abs(stretch.turned_rad) >= kTurnsHere_rad;
-    if (turns) append_turn(along.path, poses.front(), curve->at(0).pose.heading_rad, stretch.turned_rad);
-    along.path.pieces.emplace_back(*curve);
-  }
-  if (along.path.pieces.empty() || std::abs(stretches.turned_rad) >= kTurnsHere_rad)
-    append_turn(along.path, poses.front(), poses.back().heading_rad, stretches.turned_rad);
+  std::optional<Path> path =
+      joined(poses, true, [&](const Stretch& stretch) { return exact_curve_along(stretch, tolerance_m); });
+  const bool exact = path.has_value();
+  if (!exact)
+    path = joined(poses, false,
+                  [&](const Stretch& stretch) { return smooth_curve_along(stretch, tolerance_m); });
+  if (!path) return along_places(poses, tolerance_m);
+  WaypointPath along{.path = std::move(*path), .exact = exact};
   if (along.path.pieces.empty())
     along.defect = WaypointDefect{0, false, "poses that stand still", "poses that move or turn"};
   return along;

@@ -22,6 +22,7 @@ struct WaypointDefect {
 struct WaypointPath {
   Path path{};
   std::optional<WaypointDefect> defect{};
+  bool exact{};  ///< along poses that a planner wrote (direction_fit)
 };
 
 inline constexpr double kWaypointTolerance_m = 0.01;
