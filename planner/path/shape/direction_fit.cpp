@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/path/geometry/path.hpp"
 #include "planner/path/geometry/segment_ends.hpp"
 // Design: docs/decisions/0200-paths.md
 namespace joulepath {
@@ -22,7 +23,8 @@ constexpr struct {
   double smooth_m;
   std::size_t window;
 } kAttempts[] = {{0.03, 24}, {0.03, 12}, {0.01, 12}, {0.003, 6}};
-constexpr double kStep = 1e-6;  ///< of difference quotients
+constexpr double kStep = 1e-6;      ///< of difference quotients
+constexpr double kSettled = 1e-10;  ///< change of phi in rad and of lengths in m
 constexpr int kFitRounds = 8, kClosings = 4;
 constexpr std::size_t kMostKnots = 2000;
 
@@ -60,17 +62,34 @@ class Knots {
       phi_.front() = 2 * steps.front().phi_rad - phi_[1];
       phi_.back() = 2 * steps.back().phi_rad - phi_[steps.size() - 1];
     }
-    knots_ = {0};
-    cut(0, steps.size());
+    cut(steps.size());
   }
+
+  bool complete() const { return complete_; }
 
   const std::vector<std::size_t>& poses() const { return knots_; }
   double phi_rad(std::size_t pose) const { return phi_[pose]; }
   double length_m(std::size_t from, std::size_t to) const { return at_m_[to] - at_m_[from]; }
 
  private:
-  /// Appends the knots after `from` up to `to` (Douglas and Peucker's rule).
-  void cut(std::size_t from, std::size_t to) {
+  /// The knots (Douglas and Peucker's rule); more than kMostKnots are not sought.
+  void cut(std::size_t last) {
+    std::vector<std::size_t> ahead{last};
+    knots_ = {0};
+    while (!ahead.empty() && knots_.size() + ahead.size() <= kMostKnots + 1) {
+      const std::size_t worst = worst_between(knots_.back(), ahead.back());
+      if (worst > knots_.back()) {
+        ahead.push_back(worst);
+      } else {
+        knots_.push_back(ahead.back());
+        ahead.pop_back();
+      }
+    }
+    complete_ = ahead.empty();
+  }
+
+  /// The pose that needs a knot; `from` where none does.
+  std::size_t worst_between(std::size_t from, std::size_t to) const {
     double most = 0;
     std::size_t worst = from;
     for (std::size_t i = from + 1; i < to; ++i) {
@@ -78,17 +97,13 @@ class Knots {
       const double off = std::abs(phi_[i] - (1 - share) * phi_[from] - share * phi_[to]);
       if (off > most) most = off, worst = i;
     }
-    if (most <= kKnotPhi_rad && length_m(from, to) > kLongest_m) worst = from + (to - from) / 2;
-    if (worst > from && (most > kKnotPhi_rad || length_m(from, to) > kLongest_m)) {
-      cut(from, worst);
-      cut(worst, to);
-    } else {
-      knots_.push_back(to);
-    }
+    if (most > kKnotPhi_rad) return worst;
+    return length_m(from, to) > kLongest_m ? from + (to - from) / 2 : from;
   }
 
   std::vector<double> at_m_{}, phi_{};
   std::vector<std::size_t> knots_{};
+  bool complete_{};
 };
 
 Eigen::Vector3d miss(const Pose& from, const Shape& shape, const Pose& to) {
@@ -109,12 +124,12 @@ class Shooting {
   }
 
   void settle() {
-    for (int round = 0; round < kFitRounds && step() > 1e-10; ++round) continue;
+    for (int round = 0; round < kFitRounds && step() > kSettled; ++round) continue;
   }
 
   /// Changes phi least so that the segments, one after the other, pass every `window`-th knot and end at the
   /// last pose.
-  void close(std::size_t window) {
+  void pass_knots(std::size_t window) {
     const std::size_t count = length_.size(), windows = std::max<std::size_t>(1, count / window);
     for (std::size_t k = 0; k < windows; ++k) close(window * k, k + 1 < windows ? window * (k + 1) : count);
   }
@@ -153,6 +168,7 @@ class Shooting {
       }
       const Eigen::Matrix3d square = slopes * slopes.transpose() + 1e-14 * Eigen::Matrix3d::Identity();
       const Eigen::VectorXd change = -slopes.transpose() * square.ldlt().solve(off);
+      if (!change.allFinite()) return;
       for (std::size_t k = from; k <= to; ++k)
         phi_[k] = within(phi_[k] + change[static_cast<Eigen::Index>(k - from)]);
     }
@@ -194,7 +210,7 @@ class Shooting {
       for (int u = -1; u <= 1; ++u) {
         const double weight = smooth_m_ * weights[u + 1];
         entries.emplace_back(row, 2 * (static_cast<Eigen::Index>(k) + u), weight);
-        off[row] += weight * phi_[static_cast<std::size_t>(static_cast<int>(k) + u)];
+        off[row] += weight * phi_[k + static_cast<std::size_t>(u + 1) - 1];
       }
     }
     Eigen::SparseMatrix<double> slopes(off.size(), count);
@@ -203,6 +219,7 @@ class Shooting {
     for (Eigen::Index i = 0; i < count; ++i) square.coeffRef(i, i) += 1e-14;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(square);
     const Eigen::VectorXd change = factors.solve(-(slopes.transpose() * off));
+    if (!change.allFinite()) return 0;
     move(change);
     return change.cwiseAbs().maxCoeff();
   }
@@ -220,7 +237,8 @@ std::vector<Pose> unwrapped(std::vector<Pose> poses) {
   return poses;
 }
 
-/// Whether every pose lies on the curve: the nearest one there, in place and turning of a wheel.
+/// Whether every pose is on the curve. The point of the curve is the nearest in place and, times
+/// kHalfTrack_m, heading.
 bool on_curve(const std::vector<CurveSegment>& segments, const std::vector<Pose>& poses, const Knots& knots,
               double tolerance_m) {
   for (std::size_t k = 0; k < segments.size(); ++k) {
@@ -255,11 +273,11 @@ std::optional<Curve> direction_fit(const std::vector<Pose>& poses, double tolera
                   [](const Step& s) { return !(std::abs(s.phi_rad) < kMostPhi_rad); }))
     return std::nullopt;
   const Knots knots(steps);
-  if (knots.poses().size() > kMostKnots) return std::nullopt;
+  if (!knots.complete()) return std::nullopt;
   for (const auto& [smooth_m, window] : kAttempts) {
     Shooting shooting(along, knots, smooth_m);
     shooting.settle();
-    shooting.close(window);
+    shooting.pass_knots(window);
     std::vector<CurveSegment> segments = shooting.segments();
     if (on_curve(segments, along, knots, tolerance_m)) return Curve(std::move(segments), direction);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/direction_fit.hpp"
@@ -12,12 +13,18 @@ namespace joulepath {
 namespace {
 
 constexpr double kStands_m = 1e-4;        ///< the robot stands, or turns in place
-constexpr double kStandsExact_m = 1e-6;   ///< the same, of exact poses
+constexpr double kStandsExact_m = 3e-6;   ///< the same, of exact poses
 constexpr double kAlongMotion_rad = 0.5;  ///< a heading that says how the robot drives
 constexpr double kShareAlongMotion = 0.9;
-constexpr double kExact_m = 2e-3;       ///< a planner's poses are so exact
-constexpr double kTurnLength_m = 0.25;  ///< of turns compared with ways
-constexpr double kJump_m = 0.005, kJump_rad = 0.2;
+constexpr double kExact_m = 2e-3;  ///< a planner's poses are so exact
+constexpr double kWheel_m = 0.25;  ///< from a robot's middle to a wheel, where only poses are known
+constexpr double kShrinks = 0.7;   ///< a step to that before, near a stop
+constexpr double kStop_m = 0.005;  ///< both steps at a stop together
+constexpr double kStop_rad = 0.2;  ///< between the angles of driving and turning there
+constexpr double kRougher = 1.05,
+                 kRougher_per_m = 0.02;               ///< of the spline's bending: what exact poses may have
+constexpr double kStep_rad_m = 15, kNearEnd_m = 0.1;  ///< a step of the curvature, not of a start or a stop
+constexpr int kLooks = 400;                           ///< points of a curve at which bending is summed
 constexpr double kTurnsHere_rad = 0.02;  ///< a change of heading at one place that is no rounding
 
 double moved_m(const Pose& from, const Pose& to) { return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m); }
@@ -51,14 +58,18 @@ struct Stretches {
   double turned_rad{};
 };
 
-/// Whether the robot stopped between two steps of exact poses: it turns otherwise after a few millimeters.
-bool stops_between(const Pose& before, const Pose& here, const Pose& after) {
-  const auto turn_per_m = [](const Pose& from, const Pose& to) {
-    return std::atan2(kTurnLength_m * wrapped_angle_rad(to.heading_rad - from.heading_rad),
-                      moved_m(from, to));
+/// Whether the robot stopped at an exact pose: steps shrink towards it and grow after it, as those of a plan
+/// over time, and it turns otherwise after a few millimeters. A stretch has arrived there.
+bool stops_at(std::size_t here, const std::vector<Pose>& poses, const std::vector<Pose>& stretch) {
+  if (stretch.size() < 3 || here + 2 >= poses.size()) return false;
+  const auto step_m = [](const Pose* from) { return moved_m(from[0], from[1]); };
+  const auto phi_rad = [&](const Pose* from) {
+    return std::atan2(kWheel_m * wrapped_angle_rad(from[1].heading_rad - from[0].heading_rad), step_m(from));
   };
-  return moved_m(before, here) + moved_m(here, after) < kJump_m &&
-         std::abs(turn_per_m(here, after) - turn_per_m(before, here)) > kJump_rad;
+  const Pose *before = &*(stretch.end() - 3), *after = &poses[here];
+  return step_m(before + 1) < kShrinks * step_m(before) && step_m(after) < kShrinks * step_m(after + 1) &&
+         step_m(before + 1) + step_m(after) < kStop_m &&
+         std::abs(phi_rad(after) - phi_rad(before + 1)) > kStop_rad;
 }
 
 /// `exact`: poses of a planner.
@@ -78,7 +89,7 @@ Stretches stretches_of(const std::vector<Pose>& poses, bool exact) {
         std::cos(off_heading_rad(here, next)) > 0 ? Direction::forward : Direction::reverse;
     const bool goes_on = !result.all.empty() && result.all.back().direction == direction &&
                          std::abs(turned_rad) < kTurnsHere_rad &&
-                         !(exact && stops_between(*(result.all.back().poses.end() - 2), here, next));
+                         !(exact && stops_at(i - 1, poses, result.all.back().poses));
     if (!goes_on) {
       const bool turns = std::abs(turned_rad) >= kTurnsHere_rad;
       result.all.push_back({turned_rad, direction, {turns ? here : arrived}});
@@ -100,12 +111,25 @@ void append_turn(Path& path, const Pose& from, double heading_rad, double turned
   if (std::abs(angle_rad) > 1e-9) path.pieces.emplace_back(TurnInPlace{start, angle_rad});
 }
 
+/// Whether lines and arcs follow each other, which a tolerance rounds better.
+bool steps_in_curvature(const Curve& curve) {
+  for (std::size_t k = 0; k < curve.segments().size(); ++k) {
+    const auto& shape = std::get<DirectionSegment>(curve.segments()[k]).shape();
+    const bool inside =
+        curve.breakpoints_m()[k] > kNearEnd_m && curve.breakpoints_m()[k + 1] < curve.length_m() - kNearEnd_m;
+    if (inside && std::abs(shape.to_rad - shape.from_rad) > kStep_rad_m * shape.length_m) return true;
+  }
+  return false;
+}
+
 /// The curve along exact poses of a stretch; nothing where they are not exact.
 std::optional<Curve> exact_curve_along(const Stretch& stretch, double tolerance_m) {
   std::vector<Pose> tangents = stretch.poses;
   if (stretch.direction == Direction::reverse)
     for (Pose& pose : tangents) pose.heading_rad += std::numbers::pi;
-  return direction_fit(tangents, std::min(tolerance_m, kExact_m), stretch.direction);
+  std::optional<Curve> curve = direction_fit(tangents, std::min(tolerance_m, kExact_m), stretch.direction);
+  if (curve && steps_in_curvature(*curve)) return std::nullopt;
+  return curve;
 }
 
 /// The curve along a stretch; nothing where no spline keeps its places and headings.
@@ -153,18 +177,36 @@ std::optional<Path> joined(const std::vector<Pose>& poses, bool exact, const Cur
   return path;
 }
 
+/// The squares of the changes of the angle between driving and turning per length, along the curves of a
+/// path.
+double bending(const Path& path) {
+  double all_per_m = 0;
+  for (const PathPiece& piece : path.pieces) {
+    const auto* curve = std::get_if<Curve>(&piece);
+    if (curve == nullptr) continue;
+    double before = std::atan(kWheel_m * curve->bend(0).curvature_per_m);
+    for (int k = 1; k <= kLooks; ++k) {
+      const double here = std::atan(kWheel_m * curve->bend(curve->length_m() * k / kLooks).curvature_per_m);
+      const double change_rad = here - std::exchange(before, here);
+      all_per_m += change_rad * change_rad * kLooks / curve->length_m();
+    }
+  }
+  return all_per_m;
+}
+
 }  // namespace
 
 WaypointPath path_along_poses(const std::vector<Pose>& poses, double tolerance_m) {
   if (!headings_tell(poses)) return along_places(poses, tolerance_m);
-  std::optional<Path> path =
-      joined(poses, true, [&](const Stretch& stretch) { return exact_curve_along(stretch, tolerance_m); });
-  const bool exact = path.has_value();
-  if (!exact)
-    path = joined(poses, false,
-                  [&](const Stretch& stretch) { return smooth_curve_along(stretch, tolerance_m); });
-  if (!path) return along_places(poses, tolerance_m);
-  WaypointPath along{.path = std::move(*path), .exact = exact};
+  std::optional<Path> smooth =
+      joined(poses, false, [&](const Stretch& stretch) { return smooth_curve_along(stretch, tolerance_m); });
+  std::optional<Path> exact;
+  if (tolerance_m <= kWaypointTolerance_m)
+    exact =
+        joined(poses, true, [&](const Stretch& stretch) { return exact_curve_along(stretch, tolerance_m); });
+  if (exact && smooth && bending(*exact) > kRougher * bending(*smooth) + kRougher_per_m) exact.reset();
+  if (!exact && !smooth) return along_places(poses, tolerance_m);
+  WaypointPath along{.path = exact ? std::move(*exact) : std::move(*smooth), .exact = exact.has_value()};
   if (along.path.pieces.empty())
     along.defect = WaypointDefect{0, false, "poses that stand still", "poses that move or turn"};
   return along;

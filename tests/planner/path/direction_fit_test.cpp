@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "planner/path/geometry/segment_ends.hpp"
 #include "planner/path/shape/pose_path.hpp"
@@ -92,6 +94,40 @@ TEST(DirectionFit, MeasuredPosesAreNotFollowed) {
     pose.x_m += 0.003 * noise(random), pose.y_m += 0.003 * noise(random),
         pose.heading_rad += 0.01 * noise(random);
   EXPECT_FALSE(direction_fit(poses, 0.002, Direction::forward));
+}
+
+/// Noise below the tolerance: 0.1 mm and 1 mrad on a line, whose curvature would shake.
+TEST(PosePath, SmallNoiseIsNotExact) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise;
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 250; ++k)
+    poses.push_back({0.02 * k + 1e-4 * noise(random), 1e-4 * noise(random), 1e-3 * noise(random)});
+  const WaypointPath along = path_along_poses(poses);
+  ASSERT_EQ(along.path.pieces.size(), 1u);
+  EXPECT_FALSE(along.exact);
+}
+
+/// Lines and arcs with poses 2.4 mm apart: the curvature steps, and the robot drives on.
+TEST(PosePath, AStepOfTheCurvatureIsNoStop) {
+  std::vector<Pose> poses;
+  Pose here{};
+  for (const auto& [length_m, bend_per_m] : {std::pair{1.2, 0.0}, {1.2, 1.0}, {0.6, 0.0}, {1.2, -1.0}})
+    for (int k = 0; k < 500; ++k) {
+      poses.push_back(here);
+      const double step_m = length_m / 500, middle_rad = here.heading_rad + 0.5 * step_m * bend_per_m;
+      here = {here.x_m + step_m * std::cos(middle_rad), here.y_m + step_m * std::sin(middle_rad),
+              here.heading_rad + step_m * bend_per_m};
+    }
+  const WaypointPath along = path_along_poses(poses);
+  ASSERT_FALSE(along.defect);
+  EXPECT_EQ(along.path.pieces.size(), 1u);
+}
+
+TEST(PosePath, ALargeToleranceSmooths) {
+  const std::vector<Pose> poses = poses_over_time(Curve(drawn_drive(1)), 200);
+  EXPECT_TRUE(path_along_poses(poses).exact);
+  EXPECT_FALSE(path_along_poses(poses, 0.03).exact);
 }
 
 /// Two drives, the second with another angle at once: no curve does both without a stop.
