@@ -12,12 +12,11 @@
 namespace joulepath {
 namespace {
 
-constexpr double kHalfTrack_m = 0.25;  ///< of the segments: that of a robot is not known here
-constexpr double kMostPhi_rad = 1.55;  ///< beyond, the robot turns in place
-constexpr double kKnotPhi_rad =
-    0.0005;                       ///< off the line between two knots, from which a knot lies between them
-constexpr double kLongest_m = 2;  ///< between knots
-constexpr double kOffHeading_rad = 0.003;
+constexpr double kHalfTrack_m = 0.25;      ///< of the segments: that of a robot is not known here
+constexpr double kMostPhi_rad = 1.55;      ///< beyond, the robot turns in place
+constexpr double kKnotPhi_rad = 0.0005;    ///< off the line between its neighbors: a pose that needs a knot
+constexpr double kLongest_m = 2;           ///< between knots
+constexpr double kOffHeading_rad = 0.003;  ///< of a pose from the curve
 /// w, and how many knots may follow each other freely: the first pair that keeps the poses.
 constexpr struct {
   double smooth_m;

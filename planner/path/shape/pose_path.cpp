@@ -72,7 +72,7 @@ bool stops_at(std::size_t here, const std::vector<Pose>& poses, const std::vecto
          std::abs(phi_rad(after) - phi_rad(before + 1)) > kStop_rad;
 }
 
-/// `exact`: poses of a planner.
+/// `exact`: the poses are a planner's, so that a stand is narrower and a stop without a turn is seen.
 Stretches stretches_of(const std::vector<Pose>& poses, bool exact) {
   const double stands_m = exact ? kStandsExact_m : kStands_m;
   Stretches result;
@@ -161,12 +161,12 @@ WaypointPath along_places(const std::vector<Pose>& poses, double tolerance_m) {
 
 /// Curves along the stretches between places where the robot stands, and the turns there; nothing where a
 /// stretch has no curve.
-template <class CurveAlong>
-std::optional<Path> joined(const std::vector<Pose>& poses, bool exact, const CurveAlong& curve_along) {
+std::optional<Path> joined(const std::vector<Pose>& poses, bool exact, double tolerance_m) {
+  const auto curve_along = exact ? exact_curve_along : smooth_curve_along;
   Path path;
   const Stretches stretches = stretches_of(poses, exact);
   for (const Stretch& stretch : stretches.all) {
-    const std::optional<Curve> curve = curve_along(stretch);
+    const std::optional<Curve> curve = curve_along(stretch, tolerance_m);
     if (!curve) return std::nullopt;
     const bool turns = !path.pieces.empty() || std::abs(stretch.turned_rad) >= kTurnsHere_rad;
     if (turns) append_turn(path, poses.front(), curve->at(0).pose.heading_rad, stretch.turned_rad);
@@ -198,12 +198,8 @@ double bending(const Path& path) {
 
 WaypointPath path_along_poses(const std::vector<Pose>& poses, double tolerance_m) {
   if (!headings_tell(poses)) return along_places(poses, tolerance_m);
-  std::optional<Path> smooth =
-      joined(poses, false, [&](const Stretch& stretch) { return smooth_curve_along(stretch, tolerance_m); });
-  std::optional<Path> exact;
-  if (tolerance_m <= kWaypointTolerance_m)
-    exact =
-        joined(poses, true, [&](const Stretch& stretch) { return exact_curve_along(stretch, tolerance_m); });
+  std::optional<Path> smooth = joined(poses, false, tolerance_m), exact;
+  if (tolerance_m <= kWaypointTolerance_m) exact = joined(poses, true, tolerance_m);
   if (exact && smooth && bending(*exact) > kRougher * bending(*smooth) + kRougher_per_m) exact.reset();
   if (!exact && !smooth) return along_places(poses, tolerance_m);
   WaypointPath along{.path = exact ? std::move(*exact) : std::move(*smooth), .exact = exact.has_value()};
