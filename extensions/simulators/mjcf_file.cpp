@@ -285,7 +285,7 @@ class MjcfReader {
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
     if (const auto d = numbers(inertial, "diaginertia", "", 3)) own = d->asDiagonal();
     if (const auto f = numbers(inertial, "fullinertia", "", 6))
-      own << (*f)[0], (*f)[3], (*f)[4], (*f)[3], (*f)[1], (*f)[5], (*f)[4], (*f)[5], (*f)[2];
+      own = inertia_of({(*f)[0], (*f)[1], (*f)[2], (*f)[3], (*f)[4], (*f)[5]});
     link.inertia_kg_m2 = pose.rotation() * own * pose.rotation().transpose();
   }
 

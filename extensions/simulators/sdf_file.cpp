@@ -72,8 +72,8 @@ void add_sdf_mass(const XmlElement& element, const SdfFrames& frames, MechanismL
     const auto moment = [&](const char* name, double otherwise) {
       return inertia->number_in(name).value_or(otherwise);
     };
-    own << moment("ixx", 1), moment("ixy", 0), moment("ixz", 0), moment("ixy", 0), moment("iyy", 1),
-        moment("iyz", 0), moment("ixz", 0), moment("iyz", 0), moment("izz", 1);
+    own = inertia_of({moment("ixx", 1), moment("iyy", 1), moment("izz", 1), moment("ixy", 0),
+                      moment("ixz", 0), moment("iyz", 0)});
   }
   link.has_mass = true;
   link.mass_kg = *mass;

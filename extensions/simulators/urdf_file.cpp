@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -24,9 +25,8 @@ void add_urdf_mass(const XmlElement& element, MechanismLink& link) {
   const auto moment = [&](const char* name) {
     return inertia->number(inertia->attribute(name).value_or("0"));
   };
-  Eigen::Matrix3d own;
-  own << moment("ixx"), moment("ixy"), moment("ixz"), moment("ixy"), moment("iyy"), moment("iyz"),
-      moment("ixz"), moment("iyz"), moment("izz");
+  const Eigen::Matrix3d own =
+      inertia_of({moment("ixx"), moment("iyy"), moment("izz"), moment("ixy"), moment("ixz"), moment("iyz")});
   link.has_mass = true;
   link.mass_kg = mass->number(mass->required("value"));
   link.center_m = pose.translation();
@@ -120,6 +120,11 @@ Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy
   return Eigen::Translation3d(at_m) * Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
+}
+
+Eigen::Matrix3d inertia_of(const std::array<double, 6>& moments_kg_m2) {
+  const auto& [xx, yy, zz, xy, xz, yz] = moments_kg_m2;
+  return Eigen::Matrix3d{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
 }
 
 void add_primitive(MechanismLink& link, const Eigen::Isometry3d& pose, const XmlElement& shape,

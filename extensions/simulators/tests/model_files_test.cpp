@@ -339,6 +339,9 @@ TEST(ModelFiles, ErrorsNameFileLineAndElement) {
   EXPECT_NE(message(with(good, R"(mass value="10")", R"(mass value="ten")"))
                 .find("bad.urdf:4:1: <mass>: found \"ten\""),
             std::string::npos);
+  EXPECT_NE(
+      message(with(good, R"(iyy="0.2")", R"(iyy="o.2")")).find("bad.urdf:5:1: <inertia>: found \"o.2\""),
+      std::string::npos);
   EXPECT_NE(message(with(good, "<link name=\"caster\"/>", "<xacro:caster/>")).find("xacro robot.urdf.xacro"),
             std::string::npos);
   EXPECT_NE(message(with(good, "</robot>", "")).find("broken XML"), std::string::npos);
