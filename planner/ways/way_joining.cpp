@@ -28,11 +28,10 @@ std::size_t pieces_for(const Path& path) {
   return static_cast<std::size_t>(std::min(count, 40.0));
 }
 
-/// Whether turning is a notable share of what the wheels roll: on long straight ways the present curves are
-/// as good, and the search would cost more than it saves.
-bool turns_much(const Sketch& along, const Path& path) {
-  constexpr double kNotable = 1.02;
-  return along.effort_m() > kNotable * path.distance_m();
+/// Nothing is left to gain on a straight line.
+bool is_straight(const Sketch& along, const Path& path) {
+  constexpr double kRounding_m = 1e-9;
+  return along.effort_m() <= path.distance_m() + kRounding_m;
 }
 
 /// Keeps the starts with the least effort.
@@ -282,7 +281,7 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
     barred = barred || parts_[k].barred;
-    worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
+    worth_it = worth_it || parts_[k].barred || !is_straight(from_present.back(), path);
   }
   if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {

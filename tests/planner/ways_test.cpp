@@ -116,6 +116,23 @@ TEST(Ways, TheSameSeedGivesTheSamePlanAndAnotherSeedNearlyThatEnergy) {
   EXPECT_NEAR(plan_of(round_of_three(), other).energy.total_J(), energy_J, 0.005 * energy_J);
 }
 
+TEST(Ways, AHeadingALittleOffTheLineCostsHardlyMore) {
+  for (const double length_m : {2.0, 5.0, 12.0})
+    for (const int at_goal : {0, 1, -1}) {  // no heading, the start's, its mirror image
+      const auto energy_J = [&](double off_rad) {
+        MissionRequest mission{.name = "line"};
+        mission.stations = {{"goal", {.x_m = 3 + length_m, .y_m = 18}}};
+        if (at_goal != 0) mission.stations.at("goal").heading_rad = at_goal * off_rad;
+        mission.start = {.pose = {3, 18, off_rad}};
+        mission.legs = {{.to = "goal"}};
+        return plan_of(mission, kCoarse).energy.total_J();
+      };
+      const double in_line_J = energy_J(0);
+      for (const double off_rad : {1e-4, -0.01, 0.035})
+        EXPECT_LT(energy_J(off_rad), 1.001 * in_line_J) << length_m << " m, " << off_rad << ", " << at_goal;
+    }
+}
+
 TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   const Robot robot = testing::nomad();
   const Plant plant = make_plant(robot);
