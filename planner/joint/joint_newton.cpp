@@ -16,7 +16,9 @@ using Jet = nlp::JetOf<kSegmentVariables>;
 
 constexpr double kCostScale = 100;     ///< the cost of a start in the program's unit
 constexpr double kMostTurn_rad = 0.5;  ///< of a knot's phi in one step
-constexpr double kLeastRegularization = 1e-3;
+constexpr double kFirstRegularization = 0.03, kLeastRegularization = 1e-3;
+constexpr double kShortStep = 0.2, kLongStep = 0.5;  ///< below, the regularization grows; above, it falls
+constexpr double kMoreRegularization = 4, kLessRegularization = 0.4;
 constexpr double kPhiWeight = 10;          ///< of phi in the regularization; of a length: 1/length^2
 constexpr double kLeastSquare = 1e-7;      ///< of b, relative to the largest
 constexpr double kDisplacementWeight = 2;  ///< of the path's displacement in the regularization: a knot of a
@@ -25,8 +27,12 @@ constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the leas
 constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
 constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
+constexpr double kDeep_m = 0.1;            ///< of a missing clearance: deeper, the way out may be lost
 constexpr double kNearTolerance = 5;       ///< of a solution whose cost no longer changes
-constexpr int kPatience = 8;               ///< steps: NewtonOptions::least_gain
+/// A cost that changes by less (relative) in so many steps has converged: near obstacles the rest is a flat
+/// valley.
+constexpr double kLeastGain = 1e-4;
+constexpr int kPatience = 8;
 
 /// A part of a piece between two nodes of the speed.
 struct Part {
@@ -34,6 +40,28 @@ struct Part {
   double f0{}, f1{};
   Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
 };
+
+/// The step of a quadratic model, right = -gradient. Where the Hessian is not positive definite, its
+/// eigenvalues in the metric count by their size ([NocedalWright2006], 3.4): a saddle repels, and the other
+/// directions keep their steps, which a larger regularization would shorten.
+VectorXd descent(const MatrixXd& hessian, const MatrixXd& metric, double regularization,
+                 const VectorXd& right) {
+  const Eigen::LLT<MatrixXd> convex(hessian + regularization * metric);
+  if (convex.info() == Eigen::Success) return convex.solve(right);
+  const Eigen::LLT<MatrixXd> root(metric);
+  const MatrixXd half = root.matrixL().solve(hessian);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> in_metric(root.matrixL().solve(half.transpose()));
+  const VectorXd sizes = in_metric.eigenvalues().cwiseAbs().array() + regularization;
+  const VectorXd along = in_metric.eigenvectors().transpose() * root.matrixL().solve(right);
+  return root.matrixU().solve(in_metric.eigenvectors() * along.cwiseQuotient(sizes));
+}
+
+/// Whether a row goes deeper into an obstacle than before, and far.
+bool sinks(const std::vector<double>& before_m, const std::vector<double>& after_m) {
+  for (std::size_t i = 0; i < after_m.size(); ++i)
+    if (after_m[i] < std::min(before_m[i], -kDeep_m)) return true;
+  return false;
+}
 
 class Newton {
  public:
@@ -108,7 +136,7 @@ class Newton {
   Eigen::PartialPivLU<MatrixXd> on_range_{};
   VectorXd errors_{}, db_{}, dp_{};
   MatrixXd targets_{};
-  double regularization_{0}, penalty_{0}, step_{1};
+  double regularization_{kFirstRegularization}, penalty_{0}, step_{1};
 };
 
 Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares)
@@ -383,7 +411,7 @@ void Newton::solve_tridiagonal(Eigen::Ref<MatrixXd> x) const {
 }
 
 /// The step from [T B 0; B' H A'; 0 A 0]: the squares' tridiagonal block is eliminated, the rest is solved in
-/// the null space of the targets' gradient A, with as much regularization as makes it positive definite.
+/// the null space of the targets' gradient A. The regularization grows while rows cut the steps short.
 void Newton::direction() {
   const Index n = program_.parameters(), rows = errors_.size();
   pivot_ = diagonal_;
@@ -414,11 +442,10 @@ void Newton::direction() {
   metric.diagonal() += weight;
   const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric * null;
   const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
-  regularization_ = std::max(kLeastRegularization, 0.2 * regularization_);
-  Eigen::LLT<MatrixXd> cholesky(reduced + regularization_ * damping);
-  for (int i = 0; cholesky.info() != Eigen::Success && i < 30; ++i)
-    cholesky.compute(reduced + (regularization_ *= 6) * damping);
-  dp_ = to_targets + null * cholesky.solve(right);
+  if (step_ < kShortStep) regularization_ *= kMoreRegularization;
+  if (step_ >= kLongStep) regularization_ *= kLessRegularization;
+  regularization_ = std::max(kLeastRegularization, regularization_);
+  dp_ = to_targets + null * descent(reduced, damping, regularization_, right);
   const VectorXd rest = -(gradient + schur * dp_ + regularization_ * metric * dp_);
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   db_ = -x.col(n) - x.leftCols(n) * dp_;
@@ -508,8 +535,9 @@ void Newton::search(const StepLengths& lengths) {
     for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], 0.3 * kShortestPiece_m);
     next = values(b, p);
     const double after = merit(next, b, p, step_);
-    if (halvings == kHalvings - 1 || (std::isfinite(after) && after <= before + 1e-7 * std::abs(before)))
-      break;
+    const bool accepted = std::isfinite(after) && after <= before + 1e-7 * std::abs(before) &&
+                          !sinks(now.clearance, next.clearance);
+    if (accepted || halvings == kHalvings - 1) break;
     step_ *= 0.5;
   }
   if (halvings >= 3) regularization_ = std::max(6 * regularization_, 1e-2);
@@ -547,7 +575,7 @@ JointSolution Newton::run() {
     solution.duration_s = sums.duration_s;
     const double error = sums.error();
     double& before = recent[static_cast<std::size_t>(solution.steps % kPatience)];
-    const bool gains = !(std::abs(before - sums.cost) < options_.least_gain * sums.cost);
+    const bool gains = !(std::abs(before - sums.cost) < kLeastGain * sums.cost);
     before = sums.cost;
     solution.converged =
         error < options_.tolerance || (!gains && !sums.lost && sums.is_near(options_.tolerance));

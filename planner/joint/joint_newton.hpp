@@ -14,9 +14,6 @@ struct NewtonOptions {
   int most_steps{100};
   double gap{0.3};             ///< of the first complementarity, relative to the cost
   double give_up_J{kNoLimit};  ///< stops where a bound of the cost is above
-  /// A cost that changes by less (relative) in eight steps has converged: near obstacles the rest is a flat
-  /// valley.
-  double least_gain{1e-4};
 };
 
 /// A solution, or the state at which the method stopped.

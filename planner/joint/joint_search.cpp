@@ -15,9 +15,10 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
-constexpr double kFineTolerance = 1e-4, kWarmGap = 5e-3, kFineGain = 1e-5;
+constexpr double kFineTolerance = 1e-4, kWarmGap = 0.05;
 constexpr int kMostSteps = 50;  ///< of a start
 constexpr int kMarginRounds = 3;
+constexpr double kMarginGap = 0.01;
 constexpr double kMarginStep_m = 1e-3;
 
 struct Candidate {
@@ -64,8 +65,7 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   }
   fine.start.parameters = coarse.solution.parameters;
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
-  fine.solution =
-      solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap, .least_gain = kFineGain}, squares);
+  fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
   counts.steps += fine.solution.steps;
   const bool better =
       fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
@@ -120,8 +120,7 @@ std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
     candidate.start.program.margin_m += short_m + kMarginStep_m;
     candidate.start.parameters = candidate.solution.parameters;
     const JointSolution again =
-        solve(candidate.start, {.tolerance = kFineTolerance, .gap = 1e-2, .least_gain = kFineGain},
-              candidate.solution.squares);
+        solve(candidate.start, {.tolerance = kFineTolerance, .gap = kMarginGap}, candidate.solution.squares);
     counts.steps += again.steps;
     if (!again.parameters.allFinite()) return std::nullopt;
     candidate.solution = again;
