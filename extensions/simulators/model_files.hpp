@@ -18,7 +18,8 @@ namespace joulepath {
 /// Turns by roll, pitch and yaw, as URDF and SDF mean them.
 [[nodiscard]] Eigen::Isometry3d placed(const Eigen::Vector3d& at_m, const Eigen::Vector3d& rpy_rad);
 
-/// The tensor of the moments xx, yy, zz, xy, xz and yz.
+/// The tensor of the moments xx, yy, zz, xy, xz and yz, all read before: an exception within Eigen's `<<`
+/// aborts.
 [[nodiscard]] Eigen::Matrix3d inertia_of(const std::array<double, 6>& moments_kg_m2);
 
 /// Adds a box, cylinder, capsule or sphere of URDF or SDF; other shapes are meshes. `sizes` reads so many

@@ -342,6 +342,8 @@ TEST(ModelFiles, ErrorsNameFileLineAndElement) {
   EXPECT_NE(
       message(with(good, R"(iyy="0.2")", R"(iyy="o.2")")).find("bad.urdf:5:1: <inertia>: found \"o.2\""),
       std::string::npos);
+  EXPECT_NE(message(with(sdf(), "<iyy>0.2</iyy>", "<iyy>o.2</iyy>")).find("<iyy>: found \"o.2\""),
+            std::string::npos);
   EXPECT_NE(message(with(good, "<link name=\"caster\"/>", "<xacro:caster/>")).find("xacro robot.urdf.xacro"),
             std::string::npos);
   EXPECT_NE(message(with(good, "</robot>", "")).find("broken XML"), std::string::npos);
