@@ -19,6 +19,7 @@ constexpr double kMostTurn_rad = 0.5;  ///< of a knot's phi in one step
 // Tuned on 26 missions in two warehouses, a hall and among boxes, checked on 26 others: the regularization
 // begins small, grows after short steps and falls after long ones.
 constexpr double kFirstRegularization = 0.012, kLeastRegularization = 1e-3;
+constexpr double kMostRegularization = 10;  ///< beyond, steps that other rows keep short freeze the path
 constexpr double kShortStep = 0.2, kLongStep = 0.5;
 constexpr double kMoreRegularization = 4, kLessRegularization = 0.4;
 constexpr double kHardRegularization = 0.01, kMuchMoreRegularization = 6;  ///< after
@@ -519,7 +520,7 @@ void Newton::adapt_regularization(int halvings) {
     regularization_ = std::max(kMuchMoreRegularization * regularization_, kHardRegularization);
   if (step_ < kShortStep) regularization_ *= kMoreRegularization;
   if (step_ >= kLongStep) regularization_ *= kLessRegularization;
-  regularization_ = std::max(kLeastRegularization, regularization_);
+  regularization_ = std::clamp(regularization_, kLeastRegularization, kMostRegularization);
 }
 
 void Newton::search(const StepLengths& lengths) {

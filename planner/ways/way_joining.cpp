@@ -12,6 +12,7 @@ using joint::Sketch;
 
 constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
+constexpr std::size_t kFewStarts = 2;     ///< of legs that turn little
 constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
 const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
 
@@ -33,6 +34,12 @@ std::size_t pieces_for(const Path& path) {
 bool is_straight(const Sketch& along, const Path& path) {
   constexpr double kTurning_m = 2e-6;  ///< of the wheels
   return along.effort_m() <= path.distance_m() + kTurning_m;
+}
+
+/// Whether turning is a notable share of what the wheels roll: else one basin holds the best path.
+bool turns_much(const Sketch& along, const Path& path) {
+  constexpr double kNotable = 1.02;
+  return along.effort_m() > kNotable * path.distance_m();
 }
 
 /// Keeps the starts with the least effort.
@@ -277,12 +284,13 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   const std::vector<LegPath> present = paths();
   std::vector<Sketch> from_present;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
-  bool worth_it = false, barred = false;
+  bool worth_it = false, barred = false, turning = false;
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
     barred = barred || parts_[k].barred;
     worth_it = worth_it || parts_[k].barred || !is_straight(from_present.back(), path);
+    turning = turning || turns_much(from_present.back(), path);
   }
   if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {
@@ -294,6 +302,7 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   }
   const double present_J = barred ? kNoLimit : driven_J(first, count);
   auto starts = joint_starts(first, query);
+  if (!turning && !barred) starts = {easiest(std::move(starts[0]), kFewStarts), Starts{}};
   if (count > 1)
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
   if (std::isfinite(present_J)) starts[0].push_back(std::move(from_present));
