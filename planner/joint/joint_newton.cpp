@@ -6,6 +6,7 @@
 #include "planner/joint/interior_rows.hpp"
 #include "planner/joint/joint_segment.hpp"
 #include "planner/joint/path_geometry.hpp"
+#include "planner/joint/regularized_step.hpp"
 #include "planner/joint/start_fit.hpp"
 
 namespace joulepath::joint {
@@ -14,16 +15,8 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Jet = nlp::JetOf<kSegmentVariables>;
 
-constexpr double kCostScale = 100;     ///< the cost of a start in the program's unit
-constexpr double kMostTurn_rad = 0.5;  ///< of a knot's phi in one step
-// Tuned on 26 missions in two warehouses, a hall and among boxes, checked on 26 others: the regularization
-// begins small, grows after short steps and falls after long ones.
-constexpr double kFirstRegularization = 0.012, kLeastRegularization = 1e-3;
-constexpr double kMostRegularization = 10;  ///< beyond, steps that other rows keep short freeze the path
-constexpr double kShortStep = 0.2, kLongStep = 0.5;
-constexpr double kMoreRegularization = 4, kLessRegularization = 0.4;
-constexpr double kHardRegularization = 0.01, kMuchMoreRegularization = 6;  ///< after
-constexpr int kHardSearch = 3;                                             ///< halvings in the line search
+constexpr double kCostScale = 100;         ///< the cost of a start in the program's unit
+constexpr double kMostTurn_rad = 0.5;      ///< of a knot's phi in one step
 constexpr double kPhiWeight = 10;          ///< of phi in the regularization; of a length: 1/length^2
 constexpr double kLeastSquare = 1e-7;      ///< of b, relative to the largest
 constexpr double kDisplacementWeight = 2;  ///< of the path's displacement in the regularization: a knot of a
@@ -45,22 +38,6 @@ struct Part {
   double f0{}, f1{};
   Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
 };
-
-/// The step of a quadratic model with the Hessian plus `regularization` times the metric; right = -gradient.
-/// Where that sum is not positive definite, the sizes of the Hessian's eigenvalues in the metric count
-/// ([NocedalWright2006], 3.4): a saddle repels, and the other directions keep their steps, which a larger
-/// regularization would shorten.
-VectorXd descent(const MatrixXd& hessian, const MatrixXd& metric, double regularization,
-                 const VectorXd& right) {
-  const Eigen::LLT<MatrixXd> convex(hessian + regularization * metric);
-  if (convex.info() == Eigen::Success) return convex.solve(right);
-  const Eigen::LLT<MatrixXd> root(metric);
-  const MatrixXd half = root.matrixL().solve(hessian);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> in_metric(root.matrixL().solve(half.transpose()));
-  const VectorXd sizes = in_metric.eigenvalues().cwiseAbs().array() + regularization;
-  const VectorXd along = in_metric.eigenvectors().transpose() * root.matrixL().solve(right);
-  return root.matrixU().solve(in_metric.eigenvectors() * along.cwiseQuotient(sizes));
-}
 
 /// Whether a row goes below -kDeep_m, or deeper where it was there before.
 bool sinks(const std::vector<double>& before_m, const std::vector<double>& after_m) {
@@ -116,7 +93,6 @@ class Newton {
   StepLengths step_rows();
   double merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step);
   void search(const StepLengths& lengths);
-  void adapt_regularization(int halvings);
   void correct(VectorXd& parameters, double step, const VectorXd& errors) const;
   void lower_barrier(const Sums& sums);
 
@@ -143,7 +119,8 @@ class Newton {
   Eigen::PartialPivLU<MatrixXd> on_range_{};
   VectorXd errors_{}, db_{}, dp_{};
   MatrixXd targets_{};
-  double regularization_{kFirstRegularization}, penalty_{0}, step_{1};
+  Regularization regularization_{};
+  double penalty_{0}, step_{1};
 };
 
 Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares)
@@ -449,8 +426,8 @@ void Newton::direction() {
   metric.diagonal() += weight;
   const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric * null;
   const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
-  dp_ = to_targets + null * descent(reduced, damping, regularization_, right);
-  const VectorXd rest = -(gradient + schur * dp_ + regularization_ * metric * (dp_ - to_targets));
+  dp_ = to_targets + null * descent(reduced, damping, regularization_.value(), right);
+  const VectorXd rest = -(gradient + schur * dp_ + regularization_.value() * metric * (dp_ - to_targets));
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
@@ -513,16 +490,6 @@ void Newton::correct(VectorXd& parameters, double step, const VectorXd& errors) 
   }
 }
 
-/// A search that halved its step often met a bend that the model does not know; a step that is short from the
-/// beginning met a row.
-void Newton::adapt_regularization(int halvings) {
-  if (halvings >= kHardSearch)
-    regularization_ = std::max(kMuchMoreRegularization * regularization_, kHardRegularization);
-  if (step_ < kShortStep) regularization_ *= kMoreRegularization;
-  if (step_ >= kLongStep) regularization_ *= kLessRegularization;
-  regularization_ = std::clamp(regularization_, kLeastRegularization, kMostRegularization);
-}
-
 void Newton::search(const StepLengths& lengths) {
   constexpr int kHalvings = 7;
   penalty_ = std::max(0.5 * penalty_, 1.2 * std::max(1.0, lambda_new_.lpNorm<Eigen::Infinity>()));
@@ -554,7 +521,7 @@ void Newton::search(const StepLengths& lengths) {
     if (accepted || halvings == kHalvings - 1) break;
     step_ *= 0.5;
   }
-  adapt_regularization(halvings);
+  regularization_.adapt(step_, halvings);
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     for (std::size_t r = 0; r < kSegmentRows; ++r)
       rows_[k][r].take(step_, lengths.dual, next.parts[k].rows[r], mu_);

@@ -284,15 +284,15 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   const std::vector<LegPath> present = paths();
   std::vector<Sketch> from_present;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
-  bool worth_it = false, barred = false, turning = false;
+  bool bends = false, barred = false, turning = false;
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
     barred = barred || parts_[k].barred;
-    worth_it = worth_it || parts_[k].barred || !is_straight(from_present.back(), path);
+    bends = bends || !is_straight(from_present.back(), path);
     turning = turning || turns_much(from_present.back(), path);
   }
-  if (!worth_it) return;
+  if (!bends && !barred) return;
   for (std::size_t k = first; k < first + count; ++k) {
     query.laws.push_back(law_of(k, 1));
     query.reverse_laws.push_back(law_of(k, -1));

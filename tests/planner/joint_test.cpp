@@ -11,6 +11,7 @@
 #include "planner/joint/joint_search.hpp"
 #include "planner/joint/joint_segment.hpp"
 #include "planner/joint/path_geometry.hpp"
+#include "planner/joint/regularized_step.hpp"
 #include "planner/joint/start_fit.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/motion_energy.hpp"
@@ -429,6 +430,32 @@ TEST(Joint, APlanIsNeverDearerWithIt) {
     all_without_J += without_J;
   }
   EXPECT_LT(all_J, 0.97 * all_without_J);
+}
+
+/// In a metric of its own, with the curvatures 3, -2 and 0.5 of its axes.
+TEST(RegularizedStep, ASaddleRepelsAndOtherAxesKeepTheirSteps) {
+  const Eigen::Matrix3d root{{1, 0, 0}, {0.4, 2, 0}, {-0.3, 0.7, 0.5}};
+  const Eigen::Matrix3d metric = root * root.transpose();
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  const Eigen::Vector3d curvature{3, -2, 0.5}, along{0.7, -1.1, 0.4};
+  const Eigen::Matrix3d hessian = root * axes * curvature.asDiagonal() * axes.transpose() * root.transpose();
+  const Eigen::Vector3d right = root * axes * along;
+  const double regularization = 0.1;
+  const Eigen::Vector3d step = descent(hessian, metric, regularization, right);
+  const Eigen::Vector3d in_axes = axes.transpose() * root.transpose() * step;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(in_axes[i], along[i] / (std::abs(curvature[i]) + regularization), 1e-12) << i;
+  const Eigen::VectorXd convex = descent(hessian, metric, 2.5, right);
+  EXPECT_LT((hessian * convex + 2.5 * metric * convex - right).norm(), 1e-12);
+}
+
+TEST(RegularizedStep, RegularizationStaysBetweenItsLimits) {
+  Regularization regularization;
+  for (int i = 0; i < 100; ++i) regularization.adapt(1e-3, 6);
+  EXPECT_LE(regularization.value(), 10);
+  for (int i = 0; i < 100; ++i) regularization.adapt(1, 0);
+  EXPECT_GE(regularization.value(), 1e-3);
+  EXPECT_LT(regularization.value(), 0.012);
 }
 
 }  // namespace
