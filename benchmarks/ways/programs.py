@@ -76,6 +76,11 @@ def hall(folder, draw):
     return Floor("hall of 60 x 40 m", folder / "hall.pgm", 0.05, (0, 0), {"map": str(folder / "hall.yaml")})
 
 
+def warehouse():
+    maps = SCENARIOS / "maps"
+    return Floor("Nav2's warehouse", maps / "warehouse.pgm", 0.03, (-15.1, -25), {"map": str(maps / "warehouse.yaml")})
+
+
 def mission_on(floor, draw, payload_kg, headings):
     def station():
         x_m, y_m = floor.place(draw)
@@ -102,10 +107,9 @@ def mission_on(floor, draw, payload_kg, headings):
 def missions(folder):
     draw = random.Random(541)
     maps = SCENARIOS / "maps"
-    warehouse = Floor("Nav2's warehouse", maps / "warehouse.pgm", 0.03, (-15.1, -25), {"map": str(maps / "warehouse.yaml")})
     depot = Floor("Nav2's depot", maps / "depot.pgm", 0.05, (0, 0), {"map": str(maps / "depot.yaml")})
     return [(floor.name, payload_kg, headings, mission_on(floor, draw, payload_kg, headings))
-            for floor in (hall(folder, draw), warehouse, depot)
+            for floor in (hall(folder, draw), warehouse(), depot)
             for k in range(MISSIONS)
             for payload_kg, headings in [(PAYLOADS_KG[k % 3], k % 2 == 1)]]
 
