@@ -12,10 +12,14 @@ constexpr double kStep_m = 1e-4, kBendStep_m = 0.01;  ///< of differences
 constexpr double kActive = 1e-6, kFlat = 1e-9;
 constexpr double kLeastSlack_m = 0.03;
 constexpr double kPart_m = 0.6, kMostParts = 24;
-constexpr double kOverlap = 0.25;                      ///< of a part at each end
+constexpr double kOverlap = 0.25;  ///< of a part at each end
+/// Places near a stop without room, each a row of its own: the least slack is that of the stop, which no path
+/// changes.
+constexpr std::array<double, 5> kNearStop_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr double kLook_m = 0.1, kPolygonLook_m = 0.2;  ///< a polygon's slack costs far more
 constexpr double kMostLooks = 24, kCloser = 0.1;
 constexpr double kLeastOpening_per_m = 0.1;
+constexpr double kStopShare = 0.5, kOpening = 0.01;  ///< of the margin near a stop
 
 Pose on_floor(const Pose& frame, const Pose& pose) {
   const double c = std::cos(frame.heading_rad), s = std::sin(frame.heading_rad);
@@ -25,12 +29,48 @@ Pose on_floor(const Pose& frame, const Pose& pose) {
 
 }  // namespace
 
+/// Whether a piece begins where the robot stands at a given place.
+bool ClearanceRows::leaves_stop(std::size_t piece) const {
+  if (piece == 0) return true;
+  const Piece& before = program_.pieces[piece - 1];
+  return before.leg != program_.pieces[piece].leg || (before.turns && leaves_stop(piece - 1));
+}
+
+bool ClearanceRows::reaches_stop(std::size_t piece) const {
+  if (piece + 1 == program_.pieces.size()) return true;
+  const Piece& next = program_.pieces[piece + 1];
+  return next.leg != program_.pieces[piece].leg || (next.turns && reaches_stop(piece + 1));
+}
+
 void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
   if (!program_.checker) return;
+  PathGeometry geometry(program_);
+  geometry.place(parameters);
+  const auto slack_at_m = [&](const Pose& pose) {
+    return std::max(0.0, program_.checker->near_slack_m(on_floor(program_.frame, pose)));
+  };
+  stops_.push_back({{0, 0}, slack_at_m({})});
+  for (const Target& target : program_.targets)
+    stops_.push_back({target.at_m, slack_at_m(geometry.pose(target.piece, 1))});
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
-    const double count = std::clamp(std::ceil(parameters[program_.length_of(j)] / kPart_m), 1.0, kMostParts);
-    for (double i = 0; i < count; ++i)
-      parts_.push_back({j, (i - kOverlap) / count, (i + 1 + kOverlap) / count, {}, {}});
+    const Piece& piece = program_.pieces[j];
+    if (piece.turns && program_.checker->is_disc()) continue;
+    const double length_m = parameters[program_.length_of(j)];
+    const double count = std::clamp(std::ceil(length_m / kPart_m), 1.0, kMostParts);
+    double begin = -kOverlap / count, end = 1 - begin;
+    for (const double from_m : kNearStop_m) {
+      const double share = from_m / length_m;
+      if (share > 0.5) break;
+      if (leaves_stop(j) && stops_[piece.leg].slack_m < kFar_m)
+        parts_.push_back({j, begin = share, share, {}, {}});
+      if (reaches_stop(j) && stops_[piece.leg + 1].slack_m < kFar_m)
+        parts_.push_back({j, end = 1 - share, 1 - share, {}, {}});
+    }
+    for (double i = 0; i < count; ++i) {
+      const double from = std::max(begin, (i - kOverlap) / count),
+                   to = std::min(end, (i + 1 + kOverlap) / count);
+      if (from < to) parts_.push_back({j, from, to, {}, {}});
+    }
   }
 }
 
@@ -52,14 +92,15 @@ ClearanceRows::Place ClearanceRows::place(const PathGeometry& geometry, std::siz
 /// Looks along the part, then at the vertex of the parabola through the least look and its neighbors, and at
 /// that of a closer one: the slopes are those at the place, so it must be near.
 ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, const Part& part) const {
-  const double length_m = (part.to - part.from) * geometry.length_m(part.piece);
-  const int looks = static_cast<int>(std::clamp(
-      std::ceil(length_m / (program_.checker->is_disc() ? kLook_m : kPolygonLook_m)), 2.0, kMostLooks));
-  const double step = (part.to - part.from) / looks;
   const auto look = [&](double share) {
     const Place at = place(geometry, part.piece, share);
     return Nearest{at, slack_m(geometry.near_pose(at.piece, at.share)), false};
   };
+  if (part.from == part.to) return look(part.from);
+  const double length_m = (part.to - part.from) * geometry.length_m(part.piece);
+  const int looks = static_cast<int>(std::clamp(
+      std::ceil(length_m / (program_.checker->is_disc() ? kLook_m : kPolygonLook_m)), 2.0, kMostLooks));
+  const double step = (part.to - part.from) / looks;
   std::array<double, static_cast<std::size_t>(kMostLooks) + 1> slacks{};
   Nearest least{.slack_m = kNoLimit};
   int k = 0;
@@ -83,8 +124,18 @@ ClearanceRows::Nearest ClearanceRows::nearest(const PathGeometry& geometry, cons
   }
 }
 
+/// Near a stop no more than a share of the slack there.
+double ClearanceRows::margin_m(const Pose& pose) const {
+  double margin_m = program_.margin_m;
+  if (margin_m > 0)
+    for (const Stop& stop : stops_)
+      margin_m = std::min(margin_m,
+                          kStopShare * stop.slack_m + kOpening * distance_m(stop.at_m, {pose.x_m, pose.y_m}));
+  return margin_m;
+}
+
 double ClearanceRows::slack_m(const Pose& pose) const {
-  return program_.checker->near_slack_m(on_floor(program_.frame, pose)) - program_.margin_m;
+  return program_.checker->near_slack_m(on_floor(program_.frame, pose)) - margin_m(pose);
 }
 
 std::vector<double> ClearanceRows::values(const PathGeometry& geometry) const {

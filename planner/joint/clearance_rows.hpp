@@ -55,12 +55,22 @@ class ClearanceRows {
     double x{}, y{}, heading{};  ///< in the program's frame
     double bend{};               ///< second derivative across the gradient
   };
+  bool leaves_stop(std::size_t piece) const;
+  bool reaches_stop(std::size_t piece) const;
+  double margin_m(const Pose& pose) const;
   double slack_m(const Pose& pose) const;
   Slopes slopes(const Pose& pose, double here_m) const;
   void add(Part& part, const Nearest& at, PathGeometry& geometry, double mu, const Blocks& blocks);
 
+  /// A place where the robot stands, in the program's frame, and the slack there.
+  struct Stop {
+    Point2 at_m{};
+    double slack_m{};
+  };
+
   const Program& program_;
   std::vector<Part> parts_{};
+  std::vector<Stop> stops_{};
 };
 
 }  // namespace joulepath::joint

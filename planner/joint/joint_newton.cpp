@@ -88,6 +88,11 @@ class Newton {
                      const std::array<double, kSegmentVariables>& lagrangian,
                      const std::array<double, Jet::kTriangle>& hessian);
   void add_rows_of_bounds(Sums& sums);
+  void hold_knots();
+  /// Of a piece by its parameter, in any step.
+  double least_length_m(Index parameter) const {
+    return 0.3 * program_.shortest_m(static_cast<std::size_t>(parameter - program_.knots));
+  }
   void direction();
   void solve_tridiagonal(Eigen::Ref<MatrixXd> x) const;
   StepLengths step_rows();
@@ -108,6 +113,7 @@ class Newton {
   std::vector<std::array<Row, kSegmentRows>> rows_{};
   std::vector<std::array<Recovery, 2>> channels_{};
   std::vector<Row> bounds_{};
+  std::vector<Index> held_;  ///< knots that do not move
   ClearanceRows clearance_;
   PathGeometry geometry_;
   VectorXd lambda_{}, lambda_new_{};
@@ -115,7 +121,7 @@ class Newton {
   double mu_{};
   std::size_t pairs_{};
   VectorXd gb_{}, gp_{}, lb_{}, lp_{}, diagonal_{}, beside_{}, pivot_{}, lower_{};
-  MatrixXd border_{}, hpp_{}, range_{};  ///< range_: of the targets' gradient
+  MatrixXd border_{}, hpp_{}, metric_{}, range_{};  ///< range_: of the targets' gradient
   Eigen::PartialPivLU<MatrixXd> on_range_{};
   VectorXd errors_{}, db_{}, dp_{};
   MatrixXd targets_{};
@@ -127,6 +133,7 @@ Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd&
     : program_(start.program),
       options_(options),
       p_(start.parameters),
+      held_(program_.held()),
       clearance_(program_),
       geometry_(program_) {
   lay_out();
@@ -243,12 +250,12 @@ void Newton::for_bounds(const VectorXd& squares, const VectorXd& parameters, con
     const double about = piece.sign > 0 ? 0.0 : M_PI;
     const bool new_knot = j == 0 || program_.pieces[j - 1].to != piece.from;
     for (const Index knot : {piece.from, piece.to}) {
-      if (knot == piece.from && !new_knot) continue;
+      if (piece.turns || (knot == piece.from && !new_knot)) continue;
       each(bounds_[row++], kMostDirection_rad + (parameters[knot] - about), knot, false, 1.0);
       each(bounds_[row++], kMostDirection_rad - (parameters[knot] - about), knot, false, -1.0);
     }
     const Index length = program_.length_of(j);
-    each(bounds_[row++], parameters[length] - kShortestPiece_m, length, false, 1.0);
+    each(bounds_[row++], parameters[length] - program_.shortest_m(j), length, false, 1.0);
   }
 }
 
@@ -380,12 +387,30 @@ Newton::Sums Newton::assemble() {
   sums.primal += clear.primal;
   sums.lost = clear.lost;
   geometry_.finish_curvature(lambda_, hpp_);
+  hold_knots();
   for (std::size_t k = 0; k < parts_.size(); ++k)
     if (parts_[k].b1 >= 0) sums.dual += std::abs(lb_[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
   for (Index i = 0; i < n; ++i) sums.dual += std::abs(lp_[i]) * std::max(std::abs(p_[i]), 0.3);
   for (Index i = 0; i < errors_.size(); ++i)
     sums.primal += std::abs(errors_[i]) * std::max(std::abs(lambda_[i]), 20.0);
   return sums;
+}
+
+/// Takes the knots that do not move out of the system.
+void Newton::hold_knots() {
+  metric_ = kDisplacementWeight * geometry_.displacement_metric();
+  for (Index i = 0; i < p_.size(); ++i)
+    metric_(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
+  for (const Index knot : held_) {
+    gp_[knot] = lp_[knot] = 0;
+    border_.col(knot).setZero();
+    targets_.col(knot).setZero();
+    for (MatrixXd* square : {&hpp_, &metric_}) {
+      square->row(knot).setZero();
+      square->col(knot).setZero();
+      (*square)(knot, knot) = 1;
+    }
+  }
 }
 
 void Newton::solve_tridiagonal(Eigen::Ref<MatrixXd> x) const {
@@ -419,16 +444,12 @@ void Newton::direction() {
   const MatrixXd null = q.rightCols(n - rows);
   on_range_.compute(targets_ * range_);
   const VectorXd to_targets = range_ * on_range_.solve(-errors_);
-  VectorXd weight(n);
-  for (Index i = 0; i < n; ++i)
-    weight[i] = i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
-  MatrixXd metric = kDisplacementWeight * geometry_.displacement_metric();
-  metric.diagonal() += weight;
-  const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric * null;
+  const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric_ * null;
   const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
   dp_ = to_targets + null * descent(reduced, damping, regularization_.value(), right);
-  const VectorXd rest = -(gradient + schur * dp_ + regularization_.value() * metric * (dp_ - to_targets));
+  const VectorXd rest = -(gradient + schur * dp_ + regularization_.value() * metric_ * (dp_ - to_targets));
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
+  for (const Index knot : held_) dp_[knot] = 0;
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
 
@@ -458,7 +479,7 @@ StepLengths Newton::step_rows() {
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
     if (i >= program_.knots && dp_[i] < 0)
-      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - 0.3 * kShortestPiece_m) / -dp_[i]);
+      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - least_length_m(i)) / -dp_[i]);
   }
   return lengths;
 }
@@ -513,7 +534,7 @@ void Newton::search(const StepLengths& lengths) {
       if (parts_[k].b1 >= 0) b[static_cast<Index>(k) + 1] += step_ * db_[parts_[k].b1];
     p = p_ + step_ * dp_;
     correct(p, step_, errors_);
-    for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], 0.3 * kShortestPiece_m);
+    for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], least_length_m(i));
     next = values(b, p);
     const double after = merit(next, b, p, step_);
     const bool accepted = std::isfinite(after) && after <= before + 1e-7 * std::abs(before) &&

@@ -20,6 +20,7 @@ struct Piece {
   std::size_t law{};   ///< index into the laws
   bool rests_after{};  ///< the robot stands at its end: phi may jump
   std::size_t segments{};
+  bool turns{};  ///< turns in place: phi is held at +-pi/2, between rests
 };
 
 /// A pose that the path must reach at the end of a piece, in the frame of the start.
@@ -52,11 +53,24 @@ struct Program {
   /// Index of a piece's length among the parameters: the knots' phi (rad), then the lengths tau (m).
   Eigen::Index length_of(std::size_t piece) const { return knots + static_cast<Eigen::Index>(piece); }
   double half_track_m() const { return laws.front().half_track_m; }
+  double shortest_m(std::size_t piece) const;  ///< of a piece's length
+  std::vector<Eigen::Index> held() const;      ///< knots that do not move: those of turns in place
 };
 
 inline constexpr double kMostDirection_rad =
     1.45;  ///< of |phi|, or of |phi - pi|: curvature 8.2 / half track
-inline constexpr double kShortestPiece_m = 0.03;
+inline constexpr double kShortestPiece_m = 0.03, kShortestTurn_m = 1e-3;
+
+inline double Program::shortest_m(std::size_t piece) const {
+  return pieces[piece].turns ? kShortestTurn_m : kShortestPiece_m;
+}
+
+inline std::vector<Eigen::Index> Program::held() const {
+  std::vector<Eigen::Index> all;
+  for (const Piece& piece : pieces)
+    if (piece.turns) all.insert(all.end(), {piece.from, piece.to});
+  return all;
+}
 
 /// A program and parameters to begin with.
 struct Start {

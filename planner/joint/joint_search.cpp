@@ -144,15 +144,21 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
   Pose here = program.frame;
   for (std::size_t j = 0; j < program.pieces.size(); ++j) {
     const Piece& piece = program.pieces[j];
-    segments.push_back(segment_of(program, piece, here, p, p[program.length_of(j)]));
-    const auto& placed = std::get<DirectionSegment>(segments.back());
-    here = placed.at(placed.length_m()).pose;
-    if (piece.sign < 0) here.heading_rad += std::numbers::pi;
     const bool last = j + 1 == program.pieces.size();
-    if (!last && !piece.rests_after) continue;
-    paths.back().pieces.push_back(
-        Curve(std::move(segments), piece.sign > 0 ? Direction::forward : Direction::reverse));
-    segments.clear();
+    if (piece.turns) {
+      const double angle_rad = std::copysign(p[program.length_of(j)] / program.half_track_m(), p[piece.from]);
+      paths.back().pieces.push_back(TurnInPlace{here, angle_rad});
+      here.heading_rad += angle_rad;
+    } else {
+      segments.push_back(segment_of(program, piece, here, p, p[program.length_of(j)]));
+      const auto& placed = std::get<DirectionSegment>(segments.back());
+      here = placed.at(placed.length_m()).pose;
+      if (piece.sign < 0) here.heading_rad += std::numbers::pi;
+      if (!last && !piece.rests_after) continue;
+      paths.back().pieces.push_back(
+          Curve(std::move(segments), piece.sign > 0 ? Direction::forward : Direction::reverse));
+      segments.clear();
+    }
     if (!last && program.pieces[j + 1].leg != piece.leg) paths.emplace_back();
   }
   return paths;

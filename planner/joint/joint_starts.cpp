@@ -206,6 +206,16 @@ Sketch reversed(Sketch sketch) {
   return sketch;
 }
 
+bool Sketch::Part::turns_in_place() const { return std::abs(std::cos(from_rad)) < 1e-9; }
+
+Sketch turn(double turn_rad, double half_track_m) {
+  const double phi = std::copysign(0.5 * kPi, turn_rad);
+  return {{{.from_rad = phi,
+            .to_rad = phi,
+            .length_m = std::max(kShortestTurn_m, std::abs(turn_rad) * half_track_m),
+            .rests_after = true}}};
+}
+
 Pose moved(Pose pose, double along_m) {
   pose.x_m += along_m * std::cos(pose.heading_rad);
   pose.y_m += along_m * std::sin(pose.heading_rad);
@@ -296,18 +306,53 @@ Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
   return sketch;
 }
 
-Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
+Sketch along_route_turning(const Pose& start, const std::vector<Point2>& route_m,
+                           const std::optional<double>& heading_rad, int first, int last,
+                           double half_track_m) {
+  const auto bearing_rad = [&](std::size_t side) {
+    return std::atan2(route_m[side + 1][1] - route_m[side][1], route_m[side + 1][0] - route_m[side][0]);
+  };
+  Sketch sketch;
+  Pose from = start;
+  if (first != 0) {
+    from.heading_rad = bearing_rad(0);
+    sketch = turn(sense_turn_rad(from.heading_rad - start.heading_rad, first), half_track_m);
+  }
+  append(sketch, along_route(from, route_m, last == 0 ? heading_rad : std::nullopt, 0, 0, half_track_m));
+  if (last != 0)
+    append(sketch, turn(sense_turn_rad(*heading_rad - bearing_rad(route_m.size() - 2), last), half_track_m));
+  return sketch;
+}
+
+Sketch along_path(const Path& path, double half_track_m, std::size_t count, Turns turns) {
+  const auto share = [&](std::size_t from, std::size_t to) {
+    constexpr double kLeastPieces = 3;
+    double length_m = 0;
+    for (std::size_t k = from; k < to; ++k)
+      if (!is_turn(path.pieces[k])) length_m += piece_length(path.pieces[k]);
+    const double wanted = std::ceil(static_cast<double>(count) * length_m / path.distance_m());
+    return static_cast<std::size_t>(std::max(kLeastPieces, wanted));
+  };
   Sketch sketch;
   for (std::size_t from = 0, to = 0; from < path.pieces.size(); from = to) {
+    const double before_rad = sketch.parts.empty() ? 0.0 : *sketch.parts.back().turned_rad;
+    if (turns == Turns::in_place && is_turn(path.pieces[from])) {
+      const double turn_rad = turn_sign(path.pieces[from]) * piece_length(path.pieces[from]);
+      Sketch part = turn(turn_rad, half_track_m);
+      part.parts.front().turned_rad = before_rad + turn_rad;
+      append(sketch, part);
+      to = from + 1;
+      continue;
+    }
     int sign = 0;
     for (to = from; to < path.pieces.size(); ++to) {
+      if (turns == Turns::in_place && is_turn(path.pieces[to])) break;
       const int next = travel_sign(path.pieces[to]);
       if (sign * next < 0) break;
       if (next != 0) sign = next;
     }
-    const double before_rad = sketch.parts.empty() ? 0.0 : *sketch.parts.back().turned_rad;
-    Sketch part =
-        along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m, count, before_rad);
+    Sketch part = along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m,
+                               turns == Turns::in_place ? share(from, to) : count, before_rad);
     if (sign < 0) part = reversed(std::move(part));
     append(sketch, std::move(part));
   }
@@ -339,7 +384,8 @@ Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goal
                                 .leg = leg,
                                 .law = part.sign > 0 ? leg : legs.size() + leg,
                                 .rests_after = part.rests_after,
-                                .segments = segments});
+                                .segments = segments,
+                                .turns = part.turns_in_place()});
       if (!part.through_m) continue;
       program.waypoints.push_back({program.pieces.size() - 1, in_frame(*part.through_m)});
       if (part.turned_rad) program.waypoints.back().heading_rad = turned + *part.turned_rad;

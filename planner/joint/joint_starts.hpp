@@ -15,6 +15,7 @@ struct Sketch {
     bool rests_after{};
     std::optional<Point2> through_m{};   ///< place at its end, where it is known
     std::optional<double> turned_rad{};  ///< from the leg's begin to its end, where it is known
+    bool turns_in_place() const;
   };
   std::vector<Part> parts{};
 
@@ -46,6 +47,9 @@ void append(Sketch& sketch, const Sketch& next);
 [[nodiscard]] Sketch straight(double along_m);
 [[nodiscard]] Pose moved(Pose pose, double along_m);
 
+/// A turn in place.
+[[nodiscard]] Sketch turn(double turn_rad, double half_track_m);
+
 /// The words of a drive in reverse, and those with one cusp: a straight line of one of the lengths at one
 /// end, backward or forward, the rest the other way.
 [[nodiscard]] std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
@@ -60,8 +64,17 @@ void append(Sketch& sketch, const Sketch& next);
                                  const std::optional<double>& heading_rad, int first, int last,
                                  double half_track_m);
 
-/// A path in `count` pieces: knots where its direction changes; turns in place become tight arcs.
-[[nodiscard]] Sketch along_path(const Path& path, double half_track_m, std::size_t count);
+/// The same with turns in place instead of arcs at the ends. `first`, `last`: their senses, 0: an arc, the
+/// shorter way round.
+[[nodiscard]] Sketch along_route_turning(const Pose& start, const std::vector<Point2>& route_m,
+                                         const std::optional<double>& heading_rad, int first, int last,
+                                         double half_track_m);
+
+enum class Turns { as_arcs, in_place };
+
+/// A path in about `count` pieces: knots where its direction changes; turns in place become tight arcs, or
+/// remain.
+[[nodiscard]] Sketch along_path(const Path& path, double half_track_m, std::size_t count, Turns turns);
 
 /// The start of a program of legs from one rough path each. Sets everything but the laws.
 [[nodiscard]] Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goals,

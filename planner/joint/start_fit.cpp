@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kPhiEase = 0.2, kLeastPhiEase = 1e-4, kLeastLengthEase_m2 = 1e-4;
+constexpr double kPhiEase = 0.2, kLeastPhiEase = 1e-4, kLeastLengthEase_m2 = 1e-4, kHeld = 1e-14;
 constexpr double kMostPhiStep_rad = 0.6, kMostShrink = 0.7;
 constexpr double kGoal_m = 0.01;    ///< a deviation that weighs as much as a step of the ease
 constexpr double kWaypoint = 0.05;  ///< the same of waypoints (m, rad)
@@ -19,13 +19,14 @@ constexpr double kClose = 0.02;     ///< of every waypoint (m, rad): near enough
 constexpr int kFollowSteps = 20;
 
 /// How far each parameter moves, squared: a knot no farther than to its bound, a length no farther than to 0.
+/// Those of turns in place hardly move, move() holds them.
 VectorXd ease_of(const Program& program, const VectorXd& p) {
   VectorXd ease(p.size());
   for (Index i = program.knots; i < p.size(); ++i) ease[i] = std::max(kLeastLengthEase_m2, p[i] * p[i]);
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
       const double room = kMostDirection_rad - std::abs(p[knot] - (piece.sign > 0 ? 0.0 : std::numbers::pi));
-      ease[knot] = std::clamp(room * room, kLeastPhiEase, kPhiEase);
+      ease[knot] = piece.turns ? kHeld : std::clamp(room * room, kLeastPhiEase, kPhiEase);
     }
   return ease;
 }
@@ -37,11 +38,17 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
     if (i < program.knots)
       share = std::min(share, kMostPhiStep_rad / std::abs(change[i]));
     else if (change[i] < 0)
-      share = std::min(share, kMostShrink * (p[i] - 0.3 * kShortestPiece_m) / -change[i]);
+      share =
+          std::min(share, kMostShrink *
+                              (p[i] - 0.3 * program.shortest_m(static_cast<std::size_t>(i - program.knots))) /
+                              -change[i]);
   }
+  const VectorXd before = p;
   p += share * change;
+  for (const Index knot : program.held()) p[knot] = before[knot];
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
+      if (piece.turns) continue;
       const double about = piece.sign > 0 ? 0.0 : std::numbers::pi, most = kMostDirection_rad - 1e-6;
       p[knot] = std::clamp(p[knot], about - most, about + most);
     }

@@ -14,6 +14,8 @@ constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
 constexpr std::size_t kFewStarts = 2;     ///< of legs that turn little
 constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
+constexpr std::size_t kMostTurning = 4;   ///< starts with a turn in place at an end
+constexpr double kTight_m = 0.1;          ///< of room at an end: an arc that turns there may not fit
 const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
 
 /// More for a longer path and for one that turns more.
@@ -53,6 +55,19 @@ std::vector<std::vector<Sketch>> easiest(std::vector<std::vector<Sketch>> starts
                    [&](const auto& a, const auto& b) { return effort_m(a) < effort_m(b); });
   if (starts.size() > most) starts.resize(most);
   return starts;
+}
+
+bool is_tight(const FreeSpace& room, double x_m, double y_m) {
+  return !room.field().disc_free(x_m, y_m, room.radius_m() + kTight_m);
+}
+
+bool turns_in_place(const Path& path) {
+  return std::any_of(path.pieces.begin(), path.pieces.end(),
+                     [](const PathPiece& piece) { return is_turn(piece); });
+}
+
+void append_all(std::vector<std::vector<Sketch>>& starts, std::vector<std::vector<Sketch>> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(starts));
 }
 
 void append_each(std::vector<std::vector<Sketch>>& starts, std::vector<Sketch> sketches) {
@@ -122,6 +137,24 @@ RefinedRun::Starts RefinedRun::rough_paths(std::size_t k, const joint::JointQuer
   return all;
 }
 
+/// Along every route of a single leg, with turns in place at the ends that have hardly any room.
+RefinedRun::Starts RefinedRun::turning_paths(std::size_t k, const joint::JointQuery& query) const {
+  const joint::LegGoal& goal = query.goals.front();
+  const FreeSpace& room = run_.contexts[k].space->any_heading();
+  const bool at_start = is_tight(room, query.start.x_m, query.start.y_m);
+  const bool at_goal = goal.heading_rad && is_tight(room, goal.at_m[0], goal.at_m[1]);
+  Starts all;
+  if (!may_drive(k, 1)) return all;
+  const std::vector<int> none{0}, each{0, 1, -1};
+  for (const PooledRoute& route : run_.routes[k].routes)
+    for (const int first : at_start ? each : none)
+      for (const int last : at_goal ? each : none)
+        if (first != 0 || last != 0)
+          all.push_back({joint::along_route_turning(query.start, route.polyline_m, goal.heading_rad, first,
+                                                    last, query.laws.front().half_track_m)});
+  return easiest(std::move(all), kMostTurning);
+}
+
 /// Along the chosen routes of several legs, each with a drive of its own.
 RefinedRun::Starts RefinedRun::rough_chains(std::size_t first, const joint::JointQuery& query,
                                             const std::vector<RouteDrive>& drives) const {
@@ -176,11 +209,10 @@ std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
     auto more = alone ? rough_paths(first, query, drives.front()) : rough_chains(first, query, drives);
     const bool forward = std::all_of(drives.begin(), drives.end(),
                                      [](RouteDrive drive) { return drive == RouteDrive::forward; });
-    std::move(more.begin(), more.end(), std::back_inserter(forward ? starts[0] : backward));
+    append_all(forward ? starts[0] : backward, std::move(more));
   }
   starts = {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
-  Starts reversing = easiest(std::move(backward), kMostReverse);
-  std::move(reversing.begin(), reversing.end(), std::back_inserter(starts[1]));
+  append_all(starts[1], easiest(std::move(backward), kMostReverse));
   return starts;
 }
 
@@ -195,6 +227,7 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
                                 .reverse_laws = {query.reverse_laws[i]},
                                 .checker = query.checker};
     auto [forward, backward] = joint_starts(first + i, leg);
+    append_all(forward, turning_paths(first + i, leg));
     auto found = joint::best_joint_paths(leg, std::move(forward));
     if (found.empty()) found = joint::best_joint_paths(leg, std::move(backward));
     if (found.empty()) return {};
@@ -282,12 +315,17 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
                           .checker = &run_.contexts[first].space->checker()};
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
   const std::vector<LegPath> present = paths();
-  std::vector<Sketch> from_present;
+  std::vector<Sketch> from_present, turning_present;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
-  bool bends = false, barred = false, turning = false;
+  bool bends = false, barred = false, turning = false, tight = false;
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
-    from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
+    const std::size_t pieces = pieces_for(path);
+    const FreeSpace& room = run_.contexts[k].space->any_heading();
+    from_present.push_back(joint::along_path(path, half_track_m, pieces, joint::Turns::as_arcs));
+    turning_present.push_back(joint::along_path(path, half_track_m, pieces, joint::Turns::in_place));
+    for (const Pose& end : {path.start(), path.end()})
+      tight = tight || (turns_in_place(path) && is_tight(room, end.x_m, end.y_m));
     barred = barred || parts_[k].barred;
     bends = bends || !is_straight(from_present.back(), path);
     turning = turning || turns_much(from_present.back(), path);
@@ -303,9 +341,13 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   const double present_J = barred ? kNoLimit : driven_J(first, count);
   auto starts = joint_starts(first, query);
   if (!turning && !barred) starts = {easiest(std::move(starts[0]), kFewStarts), Starts{}};
+  if (count == 1) append_all(starts[0], turning_paths(first, query));
   if (count > 1)
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
-  if (std::isfinite(present_J)) starts[0].push_back(std::move(from_present));
+  if (std::isfinite(present_J)) {
+    starts[0].push_back(std::move(from_present));
+    if (tight) starts[0].push_back(std::move(turning_present));
+  }
   take_cheapest(first, count, query, std::move(starts), present_J);
 }
 

@@ -56,6 +56,7 @@ class RefinedRun {
   std::vector<std::vector<RouteDrive>> drive_choices(std::size_t first, std::size_t count) const;
   std::vector<joint::Sketch> backward_words(std::size_t k, const joint::JointQuery& query) const;
   Starts rough_paths(std::size_t k, const joint::JointQuery& query, RouteDrive drive) const;
+  Starts turning_paths(std::size_t k, const joint::JointQuery& query) const;
   Starts rough_chains(std::size_t first, const joint::JointQuery& query,
                       const std::vector<RouteDrive>& drives) const;
   std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;

@@ -269,7 +269,7 @@ TEST(JointStart, AlongALongPathIsThatPath) {
   const double half_track_m = even_nomad().geometry.half_track_m;
   const Path path = winding_path(half_track_m);
   const Pose goal = path.end();
-  Start start = assemble({along_path(path, half_track_m, 34)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}},
+  Start start = assemble({along_path(path, half_track_m, 34, Turns::as_arcs)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}},
                          path.start(), half_track_m, 5);
   start.program.laws = {law_of(even_nomad())};
   follow_waypoints(start.program, start.parameters);

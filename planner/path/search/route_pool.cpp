@@ -34,7 +34,8 @@ class Pool {
         lattice_(floor_) {}
 
   bool straight() {
-    if (request_.cost.rate || !DiscLineCheck(floor_, start_, goal_, cells_)(start_, goal_)) return false;
+    if (request_.cost.rate || !DiscLineCheck(floor_, start_, goal_, FreeSpace::Cells::free)(start_, goal_))
+      return false;
     add({start_, goal_}, "line of sight");
     return true;
   }
