@@ -52,19 +52,22 @@ void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
   stops_.push_back({{0, 0}, slack_at_m({})});
   for (const Target& target : program_.targets)
     stops_.push_back({target.at_m, slack_at_m(geometry.pose(target.piece, 1))});
+  const auto tight = [&](std::size_t stop) { return stop < stops_.size() && stops_[stop].slack_m < kFar_m; };
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
     const Piece& piece = program_.pieces[j];
     if (piece.turns && program_.checker->is_disc()) continue;
     const double length_m = parameters[program_.length_of(j)];
     const double count = std::clamp(std::ceil(length_m / kPart_m), 1.0, kMostParts);
     double begin = -kOverlap / count, end = 1 - begin;
+    if (j > 0 && leaves_stop(j - 1))
+      begin = std::max(begin, -0.5 * parameters[program_.length_of(j - 1)] / length_m);
+    if (j + 1 < program_.pieces.size() && reaches_stop(j + 1))
+      end = std::min(end, 1 + 0.5 * parameters[program_.length_of(j + 1)] / length_m);
     for (const double from_m : kNearStop_m) {
       const double share = from_m / length_m;
       if (share > 0.5) break;
-      if (leaves_stop(j) && stops_[piece.leg].slack_m < kFar_m)
-        parts_.push_back({j, begin = share, share, {}, {}});
-      if (reaches_stop(j) && stops_[piece.leg + 1].slack_m < kFar_m)
-        parts_.push_back({j, end = 1 - share, 1 - share, {}, {}});
+      if (leaves_stop(j) && tight(piece.leg)) parts_.push_back({j, begin = share, share, {}, {}});
+      if (reaches_stop(j) && tight(piece.leg + 1)) parts_.push_back({j, end = 1 - share, 1 - share, {}, {}});
     }
     for (double i = 0; i < count; ++i) {
       const double from = std::max(begin, (i - kOverlap) / count),
@@ -209,6 +212,7 @@ ClearanceRows::Sums ClearanceRows::assemble(PathGeometry& geometry, double mu, c
     part.gradient.resize(0);
     if (part.row.value < kFar_m - program_.margin_m) add(part, at, geometry, mu, blocks);
     sums.lost |= part.row.value < 0 && part.gradient.lpNorm<Eigen::Infinity>() < kFlat;
+    sums.least_m = std::min(sums.least_m, part.row.value);
     sums.complementarity += part.row.s * part.row.z;
     sums.primal += std::abs(part.row.residual()) * part.row.z;
   }

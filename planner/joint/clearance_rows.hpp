@@ -25,7 +25,8 @@ class ClearanceRows {
   };
   struct Sums {
     double complementarity{}, primal{};
-    bool lost{};  ///< the distance at a place without clearance has no slope
+    bool lost{};               ///< the distance at a place without clearance has no slope
+    double least_m{kNoLimit};  ///< of the rows' slacks
   };
   void begin(const std::vector<double>& values, double mu);
   Sums assemble(PathGeometry& geometry, double mu, const Blocks& blocks);

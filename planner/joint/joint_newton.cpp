@@ -26,6 +26,7 @@ constexpr double kFeasible = 0.01;         ///< of residuals relative to the cos
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
 constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
 constexpr double kDeep_m = 0.1;            ///< of a missing clearance: beyond, the way out may be lost
+constexpr int kWayOut = 15;                ///< steps until no place may lie deeper than that
 constexpr double kNearTolerance = 5;       ///< of a solution whose cost no longer changes
 /// A cost that changes by less (relative) in kPatience steps has converged: the rest is a flat valley, which
 /// obstacles fold.
@@ -54,7 +55,7 @@ class Newton {
  private:
   struct Sums {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
-    bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out
+    bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out, or too long
     double error() const { return std::max({complementarity, primal, 0.1 * dual}) / std::max(cost, 1e-3); }
     bool is_near(double tolerance) const {
       return complementarity < kNearTolerance * tolerance * cost && primal < tolerance * cost;
@@ -82,7 +83,7 @@ class Newton {
   SegmentValues<Real> values_of(std::size_t k, const VectorXd& squares, const VectorXd& parameters) const;
   Values values(const VectorXd& squares, const VectorXd& parameters) const;
 
-  Sums assemble();
+  Sums assemble(int steps);
   void add_part(std::size_t k, Sums& sums);
   void add_to_blocks(const Part& part, const std::array<double, kSegmentVariables>& gradient,
                      const std::array<double, kSegmentVariables>& lagrangian,
@@ -360,7 +361,7 @@ void Newton::add_rows_of_bounds(Sums& sums) {
   });
 }
 
-Newton::Sums Newton::assemble() {
+Newton::Sums Newton::assemble(int steps) {
   const Index n = program_.parameters();
   gb_.setZero(free_);
   lb_.setZero(free_);
@@ -385,7 +386,7 @@ Newton::Sums Newton::assemble() {
   const auto clear = clearance_.assemble(geometry_, mu_, {gp_, lp_, hpp_});
   sums.complementarity += clear.complementarity;
   sums.primal += clear.primal;
-  sums.lost = clear.lost;
+  sums.lost = clear.lost || (steps >= kWayOut && clear.least_m < -kDeep_m);
   geometry_.finish_curvature(lambda_, hpp_);
   hold_knots();
   for (std::size_t k = 0; k < parts_.size(); ++k)
@@ -476,6 +477,7 @@ StepLengths Newton::step_rows() {
   });
   clearance_.step(dp_, mu_, lengths);
   for (Index i = 0; i < dp_.size(); ++i) {
+    if (i >= program_.knots && p_[i] < 1.01 * least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
     if (i >= program_.knots && dp_[i] < 0)
@@ -572,7 +574,7 @@ JointSolution Newton::run() {
   std::array<double, kPatience> recent;  // costs
   recent.fill(kNoLimit);
   for (;; ++solution.steps) {
-    const Sums sums = assemble();
+    const Sums sums = assemble(solution.steps);
     solution.cost_J = sums.cost / scale_;
     solution.duration_s = sums.duration_s;
     const double error = sums.error();

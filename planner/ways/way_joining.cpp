@@ -137,21 +137,27 @@ RefinedRun::Starts RefinedRun::rough_paths(std::size_t k, const joint::JointQuer
   return all;
 }
 
-/// Along every route of a single leg, with turns in place at the ends that have hardly any room.
+/// Along every route of a single leg, with turns in place at the ends that have hardly any room but that.
 RefinedRun::Starts RefinedRun::turning_paths(std::size_t k, const joint::JointQuery& query) const {
   const joint::LegGoal& goal = query.goals.front();
   const FreeSpace& room = run_.contexts[k].space->any_heading();
-  const bool at_start = is_tight(room, query.start.x_m, query.start.y_m);
-  const bool at_goal = goal.heading_rad && is_tight(room, goal.at_m[0], goal.at_m[1]);
+  const Pose at_goal{goal.at_m[0], goal.at_m[1], goal.heading_rad.value_or(0)};
+  const std::vector<int> none{0}, each{0, 1, -1};
+  const auto turns = [&](const Pose& place, double from_rad, double to_rad) {
+    return is_tight(room, place.x_m, place.y_m) && request_.may_turn(place, from_rad, to_rad) ? each : none;
+  };
   Starts all;
   if (!may_drive(k, 1)) return all;
-  const std::vector<int> none{0}, each{0, 1, -1};
-  for (const PooledRoute& route : run_.routes[k].routes)
-    for (const int first : at_start ? each : none)
-      for (const int last : at_goal ? each : none)
+  for (const PooledRoute& route : run_.routes[k].routes) {
+    const std::vector<Point2>& line = route.polyline_m;
+    const double leaves_rad = bearing_rad(line[0], line[1]),
+                 arrives_rad = bearing_rad(line[line.size() - 2], line.back());
+    for (const int first : turns(query.start, query.start.heading_rad, leaves_rad))
+      for (const int last : goal.heading_rad ? turns(at_goal, arrives_rad, *goal.heading_rad) : none)
         if (first != 0 || last != 0)
-          all.push_back({joint::along_route_turning(query.start, route.polyline_m, goal.heading_rad, first,
-                                                    last, query.laws.front().half_track_m)});
+          all.push_back({joint::along_route_turning(query.start, line, goal.heading_rad, first, last,
+                                                    query.laws.front().half_track_m)});
+  }
   return easiest(std::move(all), kMostTurning);
 }
 

@@ -269,8 +269,8 @@ TEST(JointStart, AlongALongPathIsThatPath) {
   const double half_track_m = even_nomad().geometry.half_track_m;
   const Path path = winding_path(half_track_m);
   const Pose goal = path.end();
-  Start start = assemble({along_path(path, half_track_m, 34, Turns::as_arcs)}, {{{goal.x_m, goal.y_m}, goal.heading_rad}},
-                         path.start(), half_track_m, 5);
+  Start start = assemble({along_path(path, half_track_m, 34, Turns::as_arcs)},
+                         {{{goal.x_m, goal.y_m}, goal.heading_rad}}, path.start(), half_track_m, 5);
   start.program.laws = {law_of(even_nomad())};
   follow_waypoints(start.program, start.parameters);
   const Path begun = paths_of(start.program, start.parameters).front();
@@ -409,6 +409,64 @@ TEST(Joint, KeepsItsClearanceAndPassesADoorInACurve) {
   const auto found = best_joint_paths({start, {goal}, {law_of(robot)}, {}, &checker}, {{rough}});
   ASSERT_FALSE(found.empty());
   EXPECT_FALSE(checker.first_collision(found.front().legs.front()));
+}
+
+/// Energy and price of a path by the program, from one sketch; the path.
+std::optional<JointPaths> path_from(const Robot& robot, const Pose& start, const LegGoal& goal, Sketch sketch,
+                                    const FootprintChecker* checker = nullptr) {
+  auto found = best_joint_paths({start, {goal}, {law_of(robot)}, {}, checker}, {{std::move(sketch)}});
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+// On an open floor an arc is cheaper than a turn in place: the turn shrinks to nothing, beside what it costs.
+TEST(Joint, TurnsInPlaceAreExactAndAreGivenUpForArcs) {
+  const Robot robot = even_nomad();
+  const double half_track_m = robot.geometry.half_track_m;
+  const LegGoal goal{{3, 2}, 0.3};
+  const double by_arcs_J = paths_between(robot, {}, goal).front().cost_J;
+  for (const double turn_rad : {0.4, 1.0}) {
+    Sketch sketch = turn(turn_rad, half_track_m);
+    append(sketch, along_route({0, 0, turn_rad}, {{0, 0}, {3, 2}}, {}, 0, 0, half_track_m));
+    append(sketch, turn(-0.3, half_track_m));
+    const auto found = path_from(robot, {}, goal, std::move(sketch));
+    ASSERT_TRUE(found) << turn_rad;
+    const Path& path = found->legs.front();
+    ASSERT_EQ(path.pieces.size(), 3U);
+    const auto &first = std::get<TurnInPlace>(path.pieces[0]), &last = std::get<TurnInPlace>(path.pieces[2]);
+    EXPECT_EQ(std::hypot(first.start.x_m, first.start.y_m), 0);
+    EXPECT_NEAR(std::hypot(last.start.x_m - 3, last.start.y_m - 2), 0, 1e-9);
+    EXPECT_NEAR(path.end().heading_rad, 0.3, 1e-9);
+    EXPECT_LT(std::max(first.angle_rad, -last.angle_rad), 0.1) << turn_rad;
+    EXPECT_LT(found->cost_J, 1.03 * by_arcs_J) << turn_rad;
+    double driven = 0;
+    for (const PathPiece& piece : path.pieces) driven += driven_J(robot, Path{{piece}});
+    EXPECT_NEAR(found->cost_J / driven, 1, 8e-3) << turn_rad;
+  }
+}
+
+// The clearance of the stop itself is nearly 0 whatever the path does; the rows beside it lead away.
+TEST(Joint, LeavesAWallThatItsStartNearlyTouches) {
+  const Robot robot = even_nomad();
+  OccupancyGrid grid = free_grid(160, 120, 0.05);
+  for (int row = 80; row < 120; ++row)
+    for (int column = 0; column < 160; ++column)
+      grid.occupancy_percent[static_cast<std::size_t>(row * 160 + column)] = 100;  // from y = 4 m
+  const ObstacleField field(grid);
+  const FootprintChecker checker(field, robot.footprint, 0.05);
+  const double touching_m = 4 - checker.circumscribed_radius_m() - 0.05,
+               half_track_m = robot.geometry.half_track_m;
+  for (const double slack_m : {5e-3, 2e-2})
+    for (const double heading : {0.1, 1.5, 2.8}) {
+      const Pose start{1.5, touching_m - slack_m, heading};
+      const LegGoal goal{{5.5, touching_m - slack_m}, -0.2};
+      const auto found = path_from(robot, start, goal,
+                                   along_route_turning(start, {{start.x_m, start.y_m}, goal.at_m},
+                                                       goal.heading_rad, -1, -1, half_track_m),
+                                   &checker);
+      ASSERT_TRUE(found) << slack_m << " m, " << heading;
+      EXPECT_FALSE(checker.first_collision(found->legs.front()));
+      EXPECT_LT(found->legs.front().distance_m(), 4.05) << slack_m << " m, " << heading;
+    }
 }
 
 // What the joint program finds is a further candidate: a plan with it is never dearer, and cheaper in all.

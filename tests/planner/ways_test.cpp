@@ -139,6 +139,33 @@ TEST(Ways, HeadingsALittleOffTheLineCostHardlyMore) {
     }
 }
 
+/// Energy along the north wall from a place whose clearance touches it to another; turns first where asked.
+double along_wall_J(double slack_m, double start_rad, double goal_rad, bool turns_first = false) {
+  const double y_m = 23.9 - testing::nomad().footprint.radius_m - 0.05 - slack_m;
+  MissionRequest mission{.name = "wall", .clearance_m = 0.05};
+  mission.stations = {{"turned", {.x_m = 3, .y_m = y_m, .heading_rad = 0.0}},
+                      {"goal", {.x_m = 8, .y_m = y_m, .heading_rad = goal_rad}}};
+  mission.start = {.pose = {3, y_m, start_rad}};
+  if (turns_first) mission.legs = {{.to = "turned"}};
+  mission.legs.push_back({.to = "goal"});
+  const Plan plan = plan_of(mission, kCoarse);
+  return plan.status <= SolveStatus::feasible ? plan.energy.total_J() : std::nan("");
+}
+
+// A turn by 0.02 rad cost 50 % of the leg: the way stopped three times to keep away from a wall that it may
+// touch.
+TEST(Ways, ATurnBeforeTheLegIsNoCheaperThanTheLegBesideAWall) {
+  for (const double slack_m : {0.0, 1e-3, 0.02})
+    for (const double start_rad : {0.02, 0.5, 1.57})
+      for (const double goal_rad : {0.0, -1.57}) {
+        const double turned_J = along_wall_J(slack_m, start_rad, goal_rad, true);
+        EXPECT_LT(along_wall_J(slack_m, start_rad, goal_rad), 1.002 * turned_J)
+            << slack_m << " m, " << start_rad << ", " << goal_rad;
+        EXPECT_LT(turned_J, 1.5 * along_wall_J(0.5, 0, 0))
+            << slack_m << " m, " << start_rad << ", " << goal_rad;
+      }
+}
+
 TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   const Robot robot = testing::nomad();
   const Plant plant = make_plant(robot);

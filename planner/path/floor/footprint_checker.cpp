@@ -56,8 +56,15 @@ double FootprintChecker::polygon_slack_m(const Pose& pose) const {
     for (const auto& p : polygon_m_) points.push_back({rc * p[0] - rs * p[1], rs * p[0] + rc * p[1]});
     return points;
   };
-  field_->for_blocked_cells(pose.x_m, pose.y_m, within_m, [&](const ObstacleField::BlockedCell& cell) {
+  // An outline that lies in an obstacle, all of it, crosses no rim.
+  const Point2 corner{pose.x_m + c * polygon_m_[0][0] - s * polygon_m_[0][1],
+                      pose.y_m + s * polygon_m_[0][0] + c * polygon_m_[0][1]};
+  const bool within = field_->distance_bounds_m(corner[0], corner[1]).upper_m == 0;
+  const auto cells = within ? ObstacleField::Cells::all : ObstacleField::Cells::rim;
+  field_->for_blocked_cells(pose.x_m, pose.y_m, within_m, cells, [&](const ObstacleField::BlockedCell& cell) {
     const double dx = cell.x_m - pose.x_m, dy = cell.y_m - pose.y_m, half_m = cell.half_side_m;
+    const double away_m = outer_m_ + half_m * kHalfDiagonalPerHalfSide + best_m;
+    if (best_m > 0 && dx * dx + dy * dy >= away_m * away_m) return;
     const Point2 in_robot{c * dx + s * dy, c * dy - s * dx};
     const double center_m = signed_distance_m(polygon_m_, in_robot);
     if (center_m - half_m * kHalfDiagonalPerHalfSide >= best_m) return;
@@ -77,7 +84,8 @@ Collision FootprintChecker::polygon_collision(double s, const Pose& pose, double
   double least_m = std::numeric_limits<double>::infinity();
   ObstacleField::Nearest deepest;
   field_->for_blocked_cells(
-      pose.x_m, pose.y_m, outer_m_ + clearance_m_, [&](const ObstacleField::BlockedCell& cell) {
+      pose.x_m, pose.y_m, outer_m_ + clearance_m_, ObstacleField::Cells::all,
+      [&](const ObstacleField::BlockedCell& cell) {
         const double fc = cell.half_side_m * std::cos(cell.heading_rad),
                      fs = cell.half_side_m * std::sin(cell.heading_rad);
         constexpr int kPlaces[][2] = {{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};

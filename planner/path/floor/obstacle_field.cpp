@@ -1,6 +1,7 @@
 #include "planner/path/floor/obstacle_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,9 +44,20 @@ ObstacleField::LayerField ObstacleField::layer_of(const OccupancyGrid& grid, Lay
   field.sine = std::sin(grid.origin.heading_rad);
   field.outside_blocked = is_map;
   field.layer = layer;
+  field.rim.assign(field.blocked.size(), 0);
+  for (std::size_t i = 0; i < field.blocked.size(); ++i)
+    field.rim[i] = field.blocked[i] != 0 && field.beside_floor(grid.cell_at(i)) ? 1 : 0;
   field.distance_cells = squared_distance_transform(field.blocked, grid.width, grid.height);
   for (float& squared : field.distance_cells) squared = std::sqrt(squared);
   return field;
+}
+
+bool ObstacleField::LayerField::beside_floor(OccupancyGrid::CellIndex cell) const {
+  constexpr std::array<OccupancyGrid::CellIndex, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  return std::any_of(kBeside.begin(), kBeside.end(), [&](const OccupancyGrid::CellIndex& side) {
+    const OccupancyGrid::CellIndex next{cell.column + side.column, cell.row + side.row};
+    return grid.contains(next) ? blocked[grid.index_of(next)] == 0 : !outside_blocked;
+  });
 }
 
 ObstacleField::LayerField::Local ObstacleField::LayerField::local(double x_m, double y_m) const {
@@ -62,9 +74,9 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
   const std::size_t index = grid.index_of({column, row});
   const double center_distance = distance_cells[index];
   const double du = u - column - 0.5, dv = v - row - 0.5, off_center = std::sqrt(du * du + dv * dv);
-  const double rim = outside_blocked ? std::min({u, v, grid.width - u, grid.height - v}) : kInfinity;
-  const double lower = std::max(0.0, std::min(center_distance - off_center - kRounding, rim));
-  const double upper = blocked[index] != 0 ? 0.0 : std::min(center_distance + off_center + kRounding, rim);
+  const double edge = outside_blocked ? std::min({u, v, grid.width - u, grid.height - v}) : kInfinity;
+  const double lower = std::max(0.0, std::min(center_distance - off_center - kRounding, edge));
+  const double upper = blocked[index] != 0 ? 0.0 : std::min(center_distance + off_center + kRounding, edge);
   return {lower * grid.resolution_m, upper * grid.resolution_m};
 }
 

@@ -53,9 +53,13 @@ class ObstacleField {
   /// `heading_rad` points away from the obstacle along the diagonal.
   [[nodiscard]] std::vector<Pose> convex_corners() const;
 
-  /// Calls visit(cell) for all blocked cells that may have a point within a distance of a place.
+  enum class Cells {
+    all,
+    rim  ///< beside a cell that is not blocked: the nearest obstacle of any place on the floor is one of them
+  };
+  /// Calls visit(cell) for the blocked cells that may have a point within a distance of a place.
   template <class Visit>
-  void for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const;
+  void for_blocked_cells(double x_m, double y_m, double within_m, Cells cells, const Visit& visit) const;
 
   const OccupancyGrid& map() const { return layers_.front().grid; }
   /// The rectangle around the map, in the map frame.
@@ -68,6 +72,7 @@ class ObstacleField {
   struct LayerField {
     OccupancyGrid grid{};                 ///< geometry; occupancy is moved to `blocked`
     std::vector<std::uint8_t> blocked{};  ///< 0 for floor, kUnknown for unknown cells
+    std::vector<std::uint8_t> rim{};      ///< 1 for blocked cells beside floor
     std::vector<float> distance_cells{};  ///< from a cell's center to the nearest blocked square
     double cosine{}, sine{};
     bool outside_blocked{};
@@ -81,6 +86,7 @@ class ObstacleField {
       double u{}, v{};  ///< in cells, in the grid's frame
     };
     Local local(double x_m, double y_m) const;
+    bool beside_floor(OccupancyGrid::CellIndex cell) const;
     Bounds bounds(double x_m, double y_m) const;
     void nearest(double x_m, double y_m, double upper_m, Nearest& best) const;
   };
@@ -97,7 +103,8 @@ class ObstacleField {
 }
 
 template <class Visit>
-void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const {
+void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, Cells cells,
+                                      const Visit& visit) const {
   for (const LayerField& field : layers_) {
     const auto [u, v] = field.local(x_m, y_m);
     const OccupancyGrid& grid = field.grid;
@@ -116,7 +123,8 @@ void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, c
       for (int column = first(u); column <= last(u, grid.width); ++column) {
         const OccupancyGrid::CellIndex cell{column, row};
         const bool inside = grid.contains(cell);
-        if (inside && field.blocked[grid.index_of(cell)] == 0) continue;
+        if (inside && (cells == Cells::rim ? field.rim : field.blocked)[grid.index_of(cell)] == 0) continue;
+        if (!inside && cells == Cells::rim && !field.beside_floor(cell)) continue;
         const double du = column + 0.5 - u, dv = row + 0.5 - v;
         if (du * du + dv * dv > reach * reach) continue;
         const auto center = grid.center_of(cell);

@@ -51,6 +51,25 @@ TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
   EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, space.islands_m()));
 }
 
+// The quick check of cells keeps away from walls by more than a cell.
+TEST(RoutePool, ALineThatTouchesTheClearanceOfAWallIsTheRoute) {
+  OccupancyGrid map = free_grid(200, 100, 0.1);
+  fill(map, 0, 80, 200, 100);  // from y = 8 m
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  for (const double slack_m : {0.0, 0.001, 0.03})
+    for (const double end_m : {4.0, 17.0}) {
+      const double y_m = 7.7 - slack_m;
+      const auto routes = pool_routes(space, route_across(3, y_m, end_m, y_m), {});
+      ASSERT_EQ(routes.size(), 1u);
+      EXPECT_EQ(routes[0].polyline_m, (std::vector<Point2>{{3, y_m}, {end_m, y_m}})) << slack_m;
+    }
+  fill(map, 100, 79, 101, 80);  // a cell in the way
+  const RouteSpace bumpy(map, nullptr, kRound, 0.05);
+  const auto around = pool_routes(bumpy, route_across(3, 7.6, 17, 7.65), {});
+  ASSERT_FALSE(around.empty());
+  EXPECT_GT(around[0].polyline_m.size(), 2u);
+}
+
 TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
   const OccupancyGrid map = warehouse_grid(2);
   const RouteSpace space(map, nullptr, kRound, 0.05);

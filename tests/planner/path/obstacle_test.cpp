@@ -182,6 +182,46 @@ TEST(FootprintChecker, LongRobotPassesAlongButCannotTurn) {
   EXPECT_NEAR(turn->s, std::asin(0.45 / std::hypot(0.6, 0.3)) - std::atan2(0.3, 0.6), 5e-3);
 }
 
+// Cells inside of an obstacle are left out: its rim decides, but for an outline that lies inside, all of it.
+TEST(FootprintChecker, ThePolygonsSlackIsThatOfEveryBlockedCell) {
+  OccupancyGrid grid = free_grid(60, 60, 0.1);
+  std::mt19937 random(12);
+  const auto draw = [&](double from, double to) {
+    return std::uniform_real_distribution<>(from, to)(random);
+  };
+  for (int block = 0; block < 8; ++block) {
+    const int column0 = static_cast<int>(draw(0, 50)), row0 = static_cast<int>(draw(0, 50));
+    for (int row = row0; row < std::min(60, row0 + 12); ++row)
+      for (int column = column0; column < std::min(60, column0 + 12); ++column)
+        grid.occupancy_percent[static_cast<std::size_t>(row * 60 + column)] = 100;
+  }
+  const ObstacleField field(grid);
+  const FootprintChecker checker(field, {0, {{-0.2, -0.15}, {0.4, -0.15}, {0.3, 0.2}, {-0.2, 0.15}}}, 0.05);
+  int near = 0, within = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Pose pose{draw(0.1, 5.9), draw(0.1, 5.9), draw(-pi, pi)};
+    const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
+    std::vector<Point2> outline;
+    for (const auto& p : std::vector<Point2>{{-0.2, -0.15}, {0.4, -0.15}, {0.3, 0.2}, {-0.2, 0.15}})
+      outline.push_back({pose.x_m + c * p[0] - s * p[1], pose.y_m + s * p[0] + c * p[1]});
+    double least_m = 1;
+    for (int row = -8; row < 68; ++row)
+      for (int column = -8; column < 68; ++column)
+        if (!grid.contains({column, row}) || grid.at({column, row}) != 0)
+          least_m =
+              std::min(least_m, square_distance_m(outline, {0.1 * (column + 0.5), 0.1 * (row + 0.5)}, 0.05));
+    const double slack_m = checker.near_slack_m(pose);
+    if (least_m >= 0)
+      EXPECT_NEAR(slack_m, std::min(least_m - 0.05, 0.1), 1e-9);
+    else
+      EXPECT_LT(slack_m, -0.05) << least_m;
+    near += least_m >= 0 && least_m < 0.15 ? 1 : 0;
+    within += least_m < -0.1 ? 1 : 0;
+  }
+  EXPECT_GT(near, 200);
+  EXPECT_GT(within, 200);
+}
+
 TEST(FootprintChecker, SaysWhereAndByHowMuch) {
   OccupancyGrid grid = free_grid(100, 100, 0.1);
   for (int row = 0; row < 100; ++row) grid.occupancy_percent[static_cast<std::size_t>(row * 100 + 60)] = 100;
