@@ -78,6 +78,19 @@ void fit_what_can_be_told(const Examination& x, Validation& v) {
   if (v.judgment.unknowns.empty()) v.judgment.depends_on = dropped;
 }
 
+/// An unknown term that nothing reports can take over what a name explains: a curve of voltage over current
+/// is a resistance. Names that widen the held-out gap beside such terms and shrink it alone are fitted alone.
+void fit_alone_if_terms_take_over(const Examination& x, double before, Validation& v) {
+  const std::vector<ActiveEffect>& named = v.judgment.named;
+  if (named.empty() || !v.judgment.unknowns.empty() || x.best().unknowns.empty() ||
+      gap_percent(x, v.model) <= before)
+    return;
+  Refit alone = fit_effects(x.runs.diagnosis, x.id, named, {});
+  JudgedModel model = judged_model(x, alone);
+  if (gap_percent(x, model) >= before) return;
+  v.fitted = std::move(alone), v.model = std::move(model);
+}
+
 JudgedModel with_nominal_constants(JudgedModel model) {
   for (ModelState& state : model.states) std::ranges::fill(state.nuisance_fraction, 0.0);
   return model;
@@ -253,6 +266,7 @@ Validation validate(const Examination& x, const Judgment& by_race) {
   v.model = judged_model(x, v.fitted);
   if (v.judgment.verdict == Verdict::too_little_data) return v;
   const double before = nominal_gap_percent(x);
+  fit_alone_if_terms_take_over(x, before, v);
   if (is_no_gap(x, before, v)) list_what_is_no_gap(x, v);
   if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, before, v);
   judge_what_is_left(x, before, v);
