@@ -187,9 +187,10 @@ def main():
     right = sum(not row[0] and not row[1] for row in verdicts)
     text = "\n".join([
         "# A user's MuJoCo model, patched", "", options.note, "",
-        "Robot and model are MuJoCo models that differ in what the row names, by hand in the XML; the robot's logs have noise, and",
-        f"its motors the changed constants. Day A ({DAY_A} runs) is diagnosed with `--simulator-model`. Day B ({DAY_B} runs of other motions) is driven by the model before and after its",
-        "patch: difference of the motors' energies, in percent of the measured ones.", "",
+        "Robot and model are MuJoCo models that differ in what the row names, by hand in the XML; the robot's logs have noise,",
+        f"and its motors the changed constants. Day A ({DAY_A} runs) is diagnosed with `--simulator-model`. Day B ({DAY_B} runs of",
+        "other motions) is driven by the model before and after its patch: difference of the motors' energies, in percent of the",
+        "measured ones.", "",
         f"- Share of the gap that the patch closes: median {statistics.median(closed):.3f}, least {min(closed):.3f} ({len(closed)} cases).",
         f"- Greatest widening of a gap, in points: {max(widened):+.2f}.",
         f"- Cases with exactly the hidden names: {right} of {len(rows)}. Names beyond them: {beyond}, in {sum(row[0] > 0 for row in verdicts)} cases. Hidden",

@@ -1,13 +1,12 @@
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "app/command_line.hpp"
 #include "app/program_parts.hpp"
 #include "extensions/simulators/model_export.hpp"
+#include "extensions/simulators/proposed_effect.hpp"
 #include "extensions/simulators/simulator_patch.hpp"
 #include "model/effects/effect_label.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
@@ -52,26 +51,6 @@ class ModelTask : public ExportTask {
   }
 };
 
-/// Whether the causes shrink the gap of the runs that judge them: that of the energy, or where this hardly
-/// changes another one.
-bool shrink_gap(const GapReport& gap) {
-  const double widened_percent = gap.energy.after_percent - gap.energy.before_percent;
-  return widened_percent < 0 || (widened_percent <= kToleratedWorsening_percent && shrinks_notably(gap));
-}
-
-/// A cause as the correction has it; without a correction its own size, where the causes shrink the gap.
-std::optional<EffectSetting> proposed(const Cause& cause, const Diagnosis& diagnosis) {
-  if (!diagnosis.corrected_robot)
-    return shrink_gap(diagnosis.gap) ? std::optional(cause.effect) : std::nullopt;
-  std::vector<EffectSetting> kept = diagnosis.corrected_instruments;
-  const std::vector<EffectSetting>& physical = diagnosis.corrected_robot->effects;
-  kept.insert(kept.end(), physical.rbegin(), physical.rend());  // the robot file's own effects come last
-  const auto found = std::ranges::find_if(kept, [&](const EffectSetting& effect) {
-    return effect.name == cause.effect.name && effect.side == cause.effect.side;
-  });
-  return found == kept.end() ? std::nullopt : std::optional(*found);
-}
-
 /// The user's own simulator with the effects that the diagnosis named.
 class PatchPart : public DiagnosisPart {
  public:
@@ -115,7 +94,7 @@ class PatchPart : public DiagnosisPart {
     std::vector<EffectSetting> effects;
     std::vector<SimulatorPatch::Remainder> withheld;
     for (const Cause& cause : diagnosis.causes)
-      if (const auto effect = proposed(cause, diagnosis))
+      if (const auto effect = proposed_effect(cause, diagnosis))
         effects.push_back(*effect);
       else
         withheld.push_back({effect_label(cause.effect),
