@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "diagnosis/correction/companions.hpp"
 #include "diagnosis/correction/parameters.hpp"
@@ -27,17 +28,39 @@ double gap_percent(const Examination& x, const JudgedModel& model) {
   return energy_gap_percent(judged_energies(x, model));
 }
 
-/// With the unknown terms of the best explanation; alone where such a term can stand for a name.
-Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
+/// With unknown terms beside the names; alone where such a term can stand for a name.
+Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named,
+                const std::set<std::string>& terms) {
   const auto fit = [&](const std::set<std::string>& unknowns) {
     return fit_effects(x.runs.diagnosis, x.id, named, unknowns);
   };
-  const std::set<std::string> unknowns =
-      named.empty() ? std::set<std::string>{} : unknown_labels(x.id.equations, x.best());
+  const std::set<std::string> unknowns = named.empty() ? std::set<std::string>{} : terms;
   Refit fitted = fit(unknowns);
   for (std::size_t e = 0; e < named.size() && !unknowns.empty(); ++e)
     if (!is_told_from_zero(fitted, e)) return fit({});
   return fitted;
+}
+
+Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
+  return fit_names(x, named, unknown_labels(x.id.equations, x.best()));
+}
+
+/// What the held-out gap may be without a part of it that is not explained.
+double least_gap_left_percent(const Examination& x, const Refit& fitted) {
+  return std::max(kFloorsLeft * noise_floor_percent(x, fitted), kMaterialGap_percent);
+}
+
+/// The unknown terms of the best explanation, for the fit of the names. One that nothing reports can take
+/// over what a name explains: a curve of voltage over current is a resistance. None count where the names
+/// alone explain the held-out gap and beside such terms do not.
+std::set<std::string> terms_beside_names(const Examination& x, const Judgment& judgment) {
+  std::set<std::string> terms = unknown_labels(x.id.equations, x.best());
+  if (judgment.named.empty() || terms.empty() || !judgment.unknowns.empty()) return terms;
+  const auto explains = [&](const std::set<std::string>& beside) {
+    const Refit fitted = fit_names(x, judgment.named, beside);
+    return gap_percent(x, judged_model(x, fitted)) <= least_gap_left_percent(x, fitted);
+  };
+  return !explains(terms) && explains({}) ? std::set<std::string>{} : terms;
 }
 
 /// A member that is not named; below the materiality floor it is listed.
@@ -55,11 +78,12 @@ void withdraw(std::size_t member, const std::string& why, Validation& v) {
 /// unless an effect too small to count is the cause.
 void fit_what_can_be_told(const Examination& x, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
+  const std::set<std::string> terms = terms_beside_names(x, v.judgment);
   std::string dropped;
-  v.fitted = fit_names(x, named);
+  v.fitted = fit_names(x, named, terms);
   while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted)) {
     withdraw(*companion, "own evidence beside the other names is too small", v);
-    v.fitted = fit_names(x, named);
+    v.fitted = fit_names(x, named, terms);
   }
   for (std::size_t e = named.size(); e-- > 0;) {
     if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
@@ -67,7 +91,7 @@ void fit_what_can_be_told(const Examination& x, Validation& v) {
         is_told_from_zero(v.fitted, e) ? "size lies outside what is physical" : "size cannot be told from 0";
     dropped = "goes with " + named[e].candidate.label() + ", whose " + why;
     withdraw(e, why, v);
-    v.fitted = fit_names(x, named);
+    v.fitted = fit_names(x, named, terms);
   }
   if (dropped.empty() || !named.empty()) return;  // the verdict stays what the race says
   if (v.judgment.unknowns.empty() && has_small_effect(x)) {
@@ -211,9 +235,8 @@ double caution(const Examination& x) {
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
 void judge_what_is_left(const Examination& x, double before, Validation& v) {
   const bool named = !v.judgment.named.empty();
-  const double floor = noise_floor_percent(x, v.fitted), after = gap_percent(x, v.model);
-  const double least =
-      (named ? caution(x) : kCautionFactor) * std::max(kFloorsLeft * floor, kMaterialGap_percent);
+  const double after = gap_percent(x, v.model);
+  const double least = (named ? caution(x) : kCautionFactor) * least_gap_left_percent(x, v.fitted);
   if (after <= least) return;
   if (!named && v.judgment.verdict == Verdict::no_gap) {
     v.judgment.verdict = Verdict::unexplained;

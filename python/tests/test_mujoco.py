@@ -1,5 +1,6 @@
 """A MuJoCo model drives the motions of logs; skipped without the package mujoco."""
 
+import re
 import subprocess
 import sys
 
@@ -73,3 +74,18 @@ def test_a_log_is_not_overwritten(model, tmp_path):
         driven.predict_files(tmp_path / "robot.xml", jp.Robot.example(), [tmp_path / "run.csv"], tmp_path)
     assert (tmp_path / "run.csv").read_text() == before
     assert driven.predict_files(tmp_path / "robot.xml", jp.Robot.example(), [tmp_path / "run.csv"], tmp_path / "sim")
+
+
+def test_currents_follow_the_constants_of_the_model(model):
+    """Another Kt and Kv, by hand in the actuators: less current for the same torque, the volts of that motor."""
+    robot, log, factor = jp.Robot.example(), ramp(), 1.08
+    motor = robot.motor
+    per_ampere, ohm = motor.torque_constant_Nm_A * motor.gear_ratio, motor.resistance_ohm
+    volts = motor.voltage_constant_V_s_rad * motor.gear_ratio
+    other = re.sub(r'gainprm="[^"]*"', f'gainprm="{factor * per_ampere / ohm!r}"', model)
+    other = re.sub(r'biasprm="[^"]*"', f'biasprm="0 0 {-factor**2 * per_ampere * volts / ohm!r}"', other)
+    own, seen = driven.predict(model, robot, log), driven.predict(other, robot, log)
+    for side in ("left", "right"):
+        current, speed = seen[f"motor_current_{side}_A"][140:160], seen[f"wheel_speed_{side}_rad_s"][140:160]
+        assert np.mean(current) == pytest.approx(np.mean(own[f"motor_current_{side}_A"][140:160]) / factor, rel=1e-3)
+        assert np.mean(seen[f"motor_voltage_{side}_V"][140:160]) == pytest.approx(np.mean(ohm * current + factor * volts * speed), rel=1e-3)

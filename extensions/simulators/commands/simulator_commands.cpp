@@ -6,7 +6,9 @@
 #include "app/command_line.hpp"
 #include "app/program_parts.hpp"
 #include "extensions/simulators/model_export.hpp"
+#include "extensions/simulators/proposed_effect.hpp"
 #include "extensions/simulators/simulator_patch.hpp"
+#include "model/effects/effect_label.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 
@@ -90,8 +92,15 @@ class PatchPart : public DiagnosisPart {
   void write(const Diagnosis& diagnosis, OutputDirectory& out, std::ostream& summary) override {
     if (file_.empty()) return;
     std::vector<EffectSetting> effects;
-    for (const Cause& cause : diagnosis.causes) effects.push_back(cause.effect);
-    const SimulatorPatch patch = simulator_patch(file_, effects, wheels_);
+    std::vector<SimulatorPatch::Remainder> withheld;
+    for (const Cause& cause : diagnosis.causes)
+      if (const auto effect = proposed_effect(cause, diagnosis))
+        effects.push_back(*effect);
+      else
+        withheld.push_back({effect_label(cause.effect),
+                            "not proposed: the gap of the runs that judge it does not shrink with it"});
+    SimulatorPatch patch = simulator_patch(file_, effects, wheels_);
+    patch.not_in_model.insert(patch.not_in_model.end(), withheld.begin(), withheld.end());
     nlohmann::json json{{"model", file_},
                         {"patched", patched()},
                         {"changes", nlohmann::json::array()},

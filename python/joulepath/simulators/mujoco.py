@@ -75,7 +75,8 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
     """What a MuJoCo model gives for the motion of a log: columns of a run log at the log's times.
 
     ``model``: an MJCF file, or its text. ``robot``: its wheels turn body speeds into wheel speeds, its motors turn torques
-    into currents. ``log``: ``time_s`` (N,) with commands (``command_linear_speed_m_s``, ``command_angular_speed_rad_s``), else
+    into currents; of a model with voltages as controls only the ratio of torque to voltage constant is the robot's, the
+    constants are the model's. ``log``: ``time_s`` (N,) with commands (``command_linear_speed_m_s``, ``command_angular_speed_rad_s``), else
     wheel speeds, which a PI controller of 12 rad/s follows in the model. ``wheels``: the joints of the left and the right wheel,
     where more than two are driven. A payload is the model's business: what the log says of one is not read. Raises
     ConfigError for a model or a log without these.
@@ -98,6 +99,9 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
     radius = _sides(known.geometry["wheel_radius_m"])
     if np.allclose(drive.gain, per_ampere / ohm, rtol=1e-3):
         drive.is_speed = False  # a motor whose control is a voltage, with 1 V s/rad at the wheel
+    electrical = not drive.is_speed and bool(np.all(drive.drag < 0))
+    if electrical:  # K/R per volt and -K Kv/R per rad/s: the model's own Kv, and K with the robot's K/Kv
+        per_ampere = per_ampere / volts * -drive.drag / drive.gain
     inertia = 0.5 * float(np.sum(built.body_mass)) * radius**2 + known.inertia["wheel_axle_inertia_kg_m2"]
     rows = np.empty((len(time_s), 10))
     integral, control = np.zeros(2), np.zeros(2)
@@ -120,7 +124,6 @@ def predict(model: str | os.PathLike[str], robot: Robot | str | os.PathLike[str]
             at += built.opt.timestep
         speed = data.qvel[drive.dofs]
         current = data.actuator_force[drive.actuators] * drive.gear / per_ampere
-        electrical = not drive.is_speed and np.all(drive.drag < 0)
         voltage = control if electrical else ohm * current + volts * speed
         rows[k] = [*speed, *voltage, *current, *_pose(data, drive), data.qvel[drive.twist_at + 5]]
     rows[:, 8] = np.unwrap(rows[:, 8])

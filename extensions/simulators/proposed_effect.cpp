@@ -1,0 +1,28 @@
+#include "extensions/simulators/proposed_effect.hpp"
+
+#include <algorithm>
+
+namespace joulepath {
+namespace {
+
+/// The gap of the energy, or where this hardly changes another one.
+bool shrinks(const GapReport& gap) {
+  const double widened_percent = gap.energy.after_percent - gap.energy.before_percent;
+  return widened_percent < 0 || (widened_percent <= kToleratedWorsening_percent && shrinks_notably(gap));
+}
+
+}  // namespace
+
+std::optional<EffectSetting> proposed_effect(const Cause& cause, const Diagnosis& diagnosis) {
+  if (!diagnosis.corrected_robot)
+    return shrinks(diagnosis.gap) ? std::optional(cause.effect) : std::nullopt;
+  std::vector<EffectSetting> kept = diagnosis.corrected_instruments;
+  const std::vector<EffectSetting>& physical = diagnosis.corrected_robot->effects;
+  kept.insert(kept.end(), physical.rbegin(), physical.rend());  // before the robot file's own effects
+  const auto found = std::ranges::find_if(kept, [&](const EffectSetting& effect) {
+    return effect.name == cause.effect.name && effect.side == cause.effect.side;
+  });
+  return found == kept.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace joulepath
