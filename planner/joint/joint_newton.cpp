@@ -388,6 +388,9 @@ Newton::Sums Newton::assemble(int steps) {
   sums.primal += clear.primal;
   sums.lost = clear.lost || (steps >= kWayOut && clear.least_m < -kDeep_m);
   geometry_.finish_curvature(lambda_, hpp_);
+  metric_ = kDisplacementWeight * geometry_.displacement_metric();
+  for (Index i = 0; i < n; ++i)
+    metric_(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
   hold_knots();
   for (std::size_t k = 0; k < parts_.size(); ++k)
     if (parts_[k].b1 >= 0) sums.dual += std::abs(lb_[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
@@ -399,9 +402,6 @@ Newton::Sums Newton::assemble(int steps) {
 
 /// Takes the knots that do not move out of the system.
 void Newton::hold_knots() {
-  metric_ = kDisplacementWeight * geometry_.displacement_metric();
-  for (Index i = 0; i < p_.size(); ++i)
-    metric_(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
   for (const Index knot : held_) {
     gp_[knot] = lp_[knot] = 0;
     border_.col(knot).setZero();
