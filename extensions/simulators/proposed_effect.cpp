@@ -14,11 +14,13 @@ bool shrinks(const GapReport& gap) {
 }  // namespace
 
 std::optional<EffectSetting> proposed_effect(const Cause& cause, const Diagnosis& diagnosis) {
-  if (!diagnosis.corrected_robot)
+  if (!diagnosis.corrected_robot && diagnosis.corrected_instruments.empty())
     return shrinks(diagnosis.gap) ? std::optional(cause.effect) : std::nullopt;
   std::vector<EffectSetting> kept = diagnosis.corrected_instruments;
-  const std::vector<EffectSetting>& physical = diagnosis.corrected_robot->effects;
-  kept.insert(kept.end(), physical.rbegin(), physical.rend());  // before the robot file's own effects
+  if (diagnosis.corrected_robot) {
+    const std::vector<EffectSetting>& physical = diagnosis.corrected_robot->effects;
+    kept.insert(kept.end(), physical.rbegin(), physical.rend());  // before the robot file's own effects
+  }
   const auto found = std::ranges::find_if(kept, [&](const EffectSetting& effect) {
     return effect.name == cause.effect.name && effect.side == cause.effect.side;
   });

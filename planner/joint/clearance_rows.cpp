@@ -15,7 +15,7 @@ constexpr double kPart_m = 0.6, kMostParts = 24;
 constexpr double kOverlap = 0.25;  ///< of a part at each end
 /// Places near a stop without room, each a row of its own: the least slack is that of the stop, which no path
 /// changes.
-constexpr std::array<double, 5> kNearStop_m{0.003, 0.01, 0.03, 0.1, 0.3};
+constexpr std::array<double, 3> kNearStop_m{0.003, 0.01, 0.03};
 constexpr double kLook_m = 0.1, kPolygonLook_m = 0.2;  ///< a polygon's slack costs far more
 constexpr double kMostLooks = 24, kCloser = 0.1;
 constexpr double kLeastOpening_per_m = 0.1;
@@ -51,7 +51,9 @@ void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
   };
   stops_.push_back({{0, 0}, slack_at_m({})});
   for (const Target& target : program_.targets)
-    stops_.push_back({target.at_m, slack_at_m(geometry.pose(target.piece, 1))});
+    stops_.push_back(
+        {target.at_m, slack_at_m({target.at_m[0], target.at_m[1],
+                                  target.heading_rad.value_or(geometry.pose(target.piece, 1).heading_rad)})});
   const auto tight = [&](std::size_t stop) { return stop < stops_.size() && stops_[stop].slack_m < kFar_m; };
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
     const Piece& piece = program_.pieces[j];
@@ -66,8 +68,14 @@ void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
     for (const double from_m : kNearStop_m) {
       const double share = from_m / length_m;
       if (share > 0.5) break;
-      if (leaves_stop(j) && tight(piece.leg)) parts_.push_back({j, begin = share, share, {}, {}});
-      if (reaches_stop(j) && tight(piece.leg + 1)) parts_.push_back({j, end = 1 - share, 1 - share, {}, {}});
+      if (leaves_stop(j) && tight(piece.leg)) {
+        begin = share;
+        parts_.push_back({j, begin, begin, {}, {}});
+      }
+      if (reaches_stop(j) && tight(piece.leg + 1)) {
+        end = 1 - share;
+        parts_.push_back({j, end, end, {}, {}});
+      }
     }
     for (double i = 0; i < count; ++i) {
       const double from = std::max(begin, (i - kOverlap) / count),

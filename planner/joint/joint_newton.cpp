@@ -55,7 +55,8 @@ class Newton {
  private:
   struct Sums {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
-    bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out, or too long
+    bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out, or still does after
+                  ///< kWayOut steps
     double error() const { return std::max({complementarity, primal, 0.1 * dual}) / std::max(cost, 1e-3); }
     bool is_near(double tolerance) const {
       return complementarity < kNearTolerance * tolerance * cost && primal < tolerance * cost;
@@ -451,6 +452,8 @@ void Newton::direction() {
   const VectorXd rest = -(gradient + schur * dp_ + regularization_.value() * metric_ * (dp_ - to_targets));
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   for (const Index knot : held_) dp_[knot] = 0;
+  for (Index i = program_.knots; i < n; ++i)
+    if (p_[i] < 1.01 * least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
 
@@ -477,7 +480,6 @@ StepLengths Newton::step_rows() {
   });
   clearance_.step(dp_, mu_, lengths);
   for (Index i = 0; i < dp_.size(); ++i) {
-    if (i >= program_.knots && p_[i] < 1.01 * least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
     if (i >= program_.knots && dp_[i] < 0)

@@ -150,6 +150,7 @@ RefinedRun::Starts RefinedRun::turning_paths(std::size_t k, const joint::JointQu
   if (!may_drive(k, 1)) return all;
   for (const PooledRoute& route : run_.routes[k].routes) {
     const std::vector<Point2>& line = route.polyline_m;
+    if (line.size() < 2) continue;
     const double leaves_rad = bearing_rad(line[0], line[1]),
                  arrives_rad = bearing_rad(line[line.size() - 2], line.back());
     for (const int first : turns(query.start, query.start.heading_rad, leaves_rad))

@@ -55,5 +55,13 @@ TEST(ProposedEffect, IsTheCorrectionsWhereThereIsOne) {
   EXPECT_TRUE(first_of(diagnosis));
 }
 
+// The gap shrank by the instrument: a wheel that the correction leaves as it is stays so in the model.
+TEST(ProposedEffect, IsNoneBesideACorrectionOfInstrumentsAlone) {
+  Diagnosis diagnosis = with_gap(8.2, 0.3);
+  diagnosis.causes = {{.effect = drag(Side::right, 0.2)}};
+  diagnosis.corrected_instruments = {{.name = "current_sensor_gain", .parameters = {{"fraction", 0.1}}}};
+  EXPECT_FALSE(first_of(diagnosis));
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -12,7 +12,6 @@ namespace joulepath {
 namespace {
 
 constexpr double kSlackStep_m = 0.03;
-constexpr double kShortestSearchStep_m = 0.005;
 constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
 constexpr double kHalfDiagonalPerHalfSide = 1.4142135623730951;
 
@@ -201,7 +200,7 @@ bool FootprintChecker::line_free(double x0_m, double y0_m, double x1_m, double y
 }
 
 bool disc_line_free(const ObstacleField& field, double x0_m, double y0_m, double x1_m, double y1_m,
-                    double radius_m) {
+                    double radius_m, double shortest_step_m) {
   const double length_m = std::hypot(x1_m - x0_m, y1_m - y0_m);
   const double ux = length_m > 0 ? (x1_m - x0_m) / length_m : 0,
                uy = length_m > 0 ? (y1_m - y0_m) / length_m : 0;
@@ -210,10 +209,10 @@ bool disc_line_free(const ObstacleField& field, double x0_m, double y0_m, double
     const auto bounds = field.distance_bounds_m(x_m, y_m);
     double slack_m = bounds.lower_m - radius_m;
     if (bounds.upper_m < radius_m - FootprintChecker::kTolerance_m) return false;
-    if (slack_m < kShortestSearchStep_m) slack_m = field.distance_m(x_m, y_m) - radius_m;
+    if (slack_m < shortest_step_m) slack_m = field.distance_m(x_m, y_m) - radius_m;
     if (slack_m < -FootprintChecker::kTolerance_m) return false;
     if (s_m >= length_m) return true;
-    s_m = std::min(length_m, s_m + std::max(kShortestSearchStep_m, slack_m));
+    s_m = std::min(length_m, s_m + std::max(shortest_step_m, slack_m));
   }
 }
 

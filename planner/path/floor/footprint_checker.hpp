@@ -85,6 +85,6 @@ class FootprintChecker {
 
 /// Whether a disc may move along a line: the search's check.
 [[nodiscard]] bool disc_line_free(const ObstacleField& field, double x0_m, double y0_m, double x1_m,
-                                  double y1_m, double radius_m);
+                                  double y1_m, double radius_m, double shortest_step_m = 0.005);
 
 }  // namespace joulepath

@@ -12,6 +12,9 @@ namespace joulepath {
 namespace {
 
 using Cell = OccupancyGrid::CellIndex;
+constexpr double kStep_m = 0.005, kFineStep_m = 1e-4;
+constexpr double kSampling_m = 2e-5;  ///< more than a line can lack between two steps
+constexpr double kTouching_m = 0.05;  ///< about an end with less to spare than that
 constexpr std::array<Cell, 8> kNeighbors{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 constexpr auto kNoParent = std::numeric_limits<std::uint32_t>::max();
@@ -213,7 +216,22 @@ bool DiscLineCheck::operator()(const Point2& a, const Point2& b) const {
     return cells_ == FreeSpace::Cells::free || near_ends(grid.center_of(cell));
   });
   if (!possible || all_clear) return possible;
-  return disc_line_free(space_->field(), a[0], a[1], b[0], b[1], exact_radius_m_);
+  const auto free = [&](const Point2& from, const Point2& to, double radius_m, double step_m) {
+    return disc_line_free(space_->field(), from[0], from[1], to[0], to[1], radius_m, step_m);
+  };
+  if (!free(a, b, exact_radius_m_, kStep_m)) return false;
+  // Where an end touches, a line has nothing to spare for what it lacks between two looks.
+  const double sampled_m = space_->radius_m() + kSampling_m, length_m = distance_m(a, b);
+  if (exact_radius_m_ >= sampled_m) return true;
+  if (is_end(a) && is_end(b)) return free(a, b, exact_radius_m_, kFineStep_m);
+  const auto at = [&](double s_m) -> Point2 {
+    return {a[0] + s_m / length_m * (b[0] - a[0]), a[1] + s_m / length_m * (b[1] - a[1])};
+  };
+  const double begin_m = is_end(a) ? std::min(kTouching_m, length_m) : 0.0,
+               end_m = is_end(b) ? std::max(length_m - kTouching_m, 0.0) : length_m;
+  return (begin_m == 0 || free(a, at(begin_m), exact_radius_m_, kFineStep_m)) &&
+         (end_m == length_m || free(at(end_m), b, exact_radius_m_, kFineStep_m)) &&
+         (begin_m >= end_m || free(at(begin_m), at(end_m), sampled_m, kStep_m));
 }
 
 }  // namespace joulepath

@@ -75,6 +75,7 @@ class DiscLineCheck {
 
  private:
   bool near_ends(const Point2& p_m) const;
+  bool is_end(const Point2& p_m) const { return p_m == start_m_ || p_m == goal_m_; }
 
   const FreeSpace* space_{};
   Point2 start_m_{}, goal_m_{};

@@ -6,6 +6,7 @@
 #include "planner/path/search/graph_route.hpp"
 #include "planner/path/search/homotopy.hpp"
 #include "planner/path/search/route_pool.hpp"
+#include "planner/path/shape/blended_path.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace joulepath {
@@ -68,6 +69,41 @@ TEST(RoutePool, ALineThatTouchesTheClearanceOfAWallIsTheRoute) {
   const auto around = pool_routes(bumpy, route_across(3, 7.6, 17, 7.65), {});
   ASSERT_FALSE(around.empty());
   EXPECT_GT(around[0].polyline_m.size(), 2u);
+}
+
+/// A place whose distance to the nearest obstacle is `need_m` to rounding, from a free one along a bearing.
+Point2 touching(const ObstacleField& field, const Point2& from, double bearing_rad, double need_m) {
+  double out_m = 0, in_m = 0;
+  const auto at = [&](double s_m) -> Point2 {
+    return {from[0] + s_m * std::cos(bearing_rad), from[1] + s_m * std::sin(bearing_rad)};
+  };
+  const auto has_room = [&](double s_m) { return field.distance_m(at(s_m)[0], at(s_m)[1]) >= need_m; };
+  while (has_room(in_m)) out_m = in_m, in_m += 0.05;
+  for (int i = 0; i < 60; ++i) (has_room(0.5 * (out_m + in_m)) ? out_m : in_m) = 0.5 * (out_m + in_m);
+  return at(out_m);
+}
+
+// A line is looked at in steps: what it lacks between two of them must not be more than what it has to spare.
+TEST(RoutePool, RoutesBetweenEndsThatTouchTheClearanceAreFree) {
+  OccupancyGrid map = free_grid(160, 120, 0.05);
+  fill(map, 78, 0, 82, 50);
+  fill(map, 78, 68, 82, 120);
+  fill(map, 30, 40, 60, 44);
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  int free = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const Point2 start = touching(space.field(), {1.5, 3.5}, 0.26 * trial, 0.3),
+                 goal = touching(space.field(), {6, 2.5}, 1.7 * trial, 0.3);
+    const auto routes = pool_routes(space, route_across(start[0], start[1], goal[0], goal[1]), {});
+    ASSERT_FALSE(routes.empty()) << trial;
+    const SmoothPath shaped =
+        blend_corners(routes[0].polyline_m, space.checker(), {.kind = CornerPolicy::Kind::stop_turn_go});
+    const auto collision = space.checker().first_collision(shaped.path);
+    free += collision ? 0 : 1;
+    EXPECT_FALSE(collision) << trial << ": " << routes[0].polyline_m.size() << " vertices, short by "
+                            << collision->short_by_m << " m";
+  }
+  EXPECT_EQ(free, 24);
 }
 
 TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
