@@ -354,7 +354,7 @@ Sketch along_path(const Path& path, double half_track_m, std::size_t count, Turn
     Sketch part = along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m,
                                turns == Turns::in_place ? share(from, to) : count, before_rad);
     if (sign < 0) part = reversed(std::move(part));
-    append(sketch, std::move(part));
+    append(sketch, part);
   }
   return sketch;
 }
