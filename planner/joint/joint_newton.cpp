@@ -91,10 +91,6 @@ class Newton {
                      const std::array<double, Jet::kTriangle>& hessian);
   void add_rows_of_bounds(Sums& sums);
   void hold_knots();
-  /// Of a piece by its parameter, in any step.
-  double least_length_m(Index parameter) const {
-    return 0.3 * program_.shortest_m(static_cast<std::size_t>(parameter - program_.knots));
-  }
   void direction();
   void solve_tridiagonal(Eigen::Ref<MatrixXd> x) const;
   StepLengths step_rows();
@@ -453,7 +449,7 @@ void Newton::direction() {
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   for (const Index knot : held_) dp_[knot] = 0;
   for (Index i = program_.knots; i < n; ++i)
-    if (p_[i] < 1.01 * least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
+    if (p_[i] < 1.01 * program_.least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
 
@@ -483,7 +479,7 @@ StepLengths Newton::step_rows() {
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
     if (i >= program_.knots && dp_[i] < 0)
-      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - least_length_m(i)) / -dp_[i]);
+      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - program_.least_length_m(i)) / -dp_[i]);
   }
   return lengths;
 }
@@ -538,7 +534,7 @@ void Newton::search(const StepLengths& lengths) {
       if (parts_[k].b1 >= 0) b[static_cast<Index>(k) + 1] += step_ * db_[parts_[k].b1];
     p = p_ + step_ * dp_;
     correct(p, step_, errors_);
-    for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], least_length_m(i));
+    for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], program_.least_length_m(i));
     next = values(b, p);
     const double after = merit(next, b, p, step_);
     const bool accepted = std::isfinite(after) && after <= before + 1e-7 * std::abs(before) &&

@@ -53,8 +53,9 @@ struct Program {
   /// Index of a piece's length among the parameters: the knots' phi (rad), then the lengths tau (m).
   Eigen::Index length_of(std::size_t piece) const { return knots + static_cast<Eigen::Index>(piece); }
   double half_track_m() const { return laws.front().half_track_m; }
-  double shortest_m(std::size_t piece) const;  ///< of a piece's length
-  std::vector<Eigen::Index> held() const;      ///< knots that do not move: those of turns in place
+  double shortest_m(std::size_t piece) const;           ///< of a piece's length
+  double least_length_m(Eigen::Index parameter) const;  ///< of a length's parameter, in any step
+  std::vector<Eigen::Index> held() const;               ///< knots that do not move: those of turns in place
 };
 
 inline constexpr double kMostDirection_rad =
@@ -63,6 +64,10 @@ inline constexpr double kShortestPiece_m = 0.03, kShortestTurn_m = 1e-3;
 
 inline double Program::shortest_m(std::size_t piece) const {
   return pieces[piece].turns ? kShortestTurn_m : kShortestPiece_m;
+}
+
+inline double Program::least_length_m(Eigen::Index parameter) const {
+  return 0.3 * shortest_m(static_cast<std::size_t>(parameter - knots));
 }
 
 inline std::vector<Eigen::Index> Program::held() const {

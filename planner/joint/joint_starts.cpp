@@ -309,18 +309,17 @@ Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
 Sketch along_route_turning(const Pose& start, const std::vector<Point2>& route_m,
                            const std::optional<double>& heading_rad, int first, int last,
                            double half_track_m) {
-  const auto bearing_rad = [&](std::size_t side) {
-    return std::atan2(route_m[side + 1][1] - route_m[side][1], route_m[side + 1][0] - route_m[side][0]);
-  };
   Sketch sketch;
   Pose from = start;
   if (first != 0) {
-    from.heading_rad = bearing_rad(0);
+    from.heading_rad = bearing_rad(route_m[0], route_m[1]);
     sketch = turn(sense_turn_rad(from.heading_rad - start.heading_rad, first), half_track_m);
   }
   append(sketch, along_route(from, route_m, last == 0 ? heading_rad : std::nullopt, 0, 0, half_track_m));
   if (last != 0)
-    append(sketch, turn(sense_turn_rad(*heading_rad - bearing_rad(route_m.size() - 2), last), half_track_m));
+    append(sketch,
+           turn(sense_turn_rad(*heading_rad - bearing_rad(route_m[route_m.size() - 2], route_m.back()), last),
+                half_track_m));
   return sketch;
 }
 

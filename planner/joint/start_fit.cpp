@@ -38,10 +38,7 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
     if (i < program.knots)
       share = std::min(share, kMostPhiStep_rad / std::abs(change[i]));
     else if (change[i] < 0)
-      share =
-          std::min(share, kMostShrink *
-                              (p[i] - 0.3 * program.shortest_m(static_cast<std::size_t>(i - program.knots))) /
-                              -change[i]);
+      share = std::min(share, kMostShrink * (p[i] - program.least_length_m(i)) / -change[i]);
   }
   const VectorXd before = p;
   p += share * change;

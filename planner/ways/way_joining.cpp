@@ -322,15 +322,13 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
                           .checker = &run_.contexts[first].space->checker()};
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
   const std::vector<LegPath> present = paths();
-  std::vector<Sketch> from_present, turning_present;
+  std::vector<Sketch> from_present;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
   bool bends = false, barred = false, turning = false, tight = false;
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
-    const std::size_t pieces = pieces_for(path);
     const FreeSpace& room = run_.contexts[k].space->any_heading();
-    from_present.push_back(joint::along_path(path, half_track_m, pieces, joint::Turns::as_arcs));
-    turning_present.push_back(joint::along_path(path, half_track_m, pieces, joint::Turns::in_place));
+    from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path), joint::Turns::as_arcs));
     for (const Pose& end : {path.start(), path.end()})
       tight = tight || (turns_in_place(path) && is_tight(room, end.x_m, end.y_m));
     barred = barred || parts_[k].barred;
@@ -353,7 +351,12 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     if (Starts sequence = one_by_one(first, query); !sequence.empty()) starts[0] = std::move(sequence);
   if (std::isfinite(present_J)) {
     starts[0].push_back(std::move(from_present));
-    if (tight) starts[0].push_back(std::move(turning_present));
+    if (tight) {
+      std::vector<Sketch>& turning_present = starts[0].emplace_back();
+      for (std::size_t k = first; k < first + count; ++k)
+        turning_present.push_back(
+            along_path(present[k].path, half_track_m, pieces_for(present[k].path), joint::Turns::in_place));
+    }
   }
   take_cheapest(first, count, query, std::move(starts), present_J);
 }
