@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "benchmarks/path_bound/motions.hpp"
 #include "model/robot.hpp"
 
@@ -37,7 +39,7 @@ inline JudgeRobot judge_robot(const Robot& robot, const Limits& limits, double p
 }
 
 /// A robot with what makes a bound difficult: recovered energy, unequal friction, a center of mass off the
-/// axle.
+/// axle. All may drive backward but one.
 struct Variant {
   const char* name{};
   double payload_kg{};
@@ -45,8 +47,10 @@ struct Variant {
   double center_of_mass_m{};
   double friction_left_Nm{0.3728};
   bool bus{};
+  bool forward_only{};
 };
 inline constexpr Variant kVariants[] = {{.name = "plain"},
+                                        {.name = "forward only", .forward_only = true},
                                         {.name = "loaded", .payload_kg = 8},
                                         {.name = "recovers all", .regeneration = 1},
                                         {.name = "nose-heavy", .payload_kg = 5, .center_of_mass_m = 0.08},
@@ -61,7 +65,12 @@ inline Robot robot_of(Robot robot, const Variant& variant) {
   robot.motor.left.friction_torque_Nm = variant.friction_left_Nm;
   robot.power.regeneration_efficiency = variant.regeneration;
   robot.power.sharing = variant.bus ? PowerSharing::bus : PowerSharing::wheel;
+  robot.limits->reverse_speed_m_s = variant.forward_only ? kNoLimit : robot.limits->speed_m_s;
   return robot;
+}
+
+inline bool drives_backward(const Motion& motion) {
+  return std::any_of(motion.speed_m_s.begin(), motion.speed_m_s.end(), [](double v) { return v < 0; });
 }
 
 }  // namespace joulepath::path_bound

@@ -1,5 +1,6 @@
 #include "planner/bound/least_rate.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -14,6 +15,7 @@ using nlp::Range;
 
 constexpr int kMostCells = 4000;
 constexpr int kWeightSteps = 12;  ///< halvings of a weight
+constexpr int kYawRates = 50;     ///< sampled where the robot turns in place
 constexpr int kOctaves = 4;       ///< of the yaw rate, at first
 constexpr int kWeightRounds = 3;
 constexpr double kShareOfTolerance = 0.2;  ///< that weights may lose
@@ -54,37 +56,70 @@ Least least_on(const Square& f, const Range& a, const Range& b) {
 
 using Weights = Sided<double>;
 
+/// One value for each price per radian.
+using Values = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostHeadingPrices, 1>;
+
 struct Cell {
   const Sector* sector{};
   Range m{}, x{};
   Weights weight{1, 1};
-  double low{};
-  friend bool operator<(const Cell& one, const Cell& other) { return one.low > other.low; }
+  Values low{};
 };
 
 class RateSearch {
  public:
-  RateSearch(const PowerForm& form, const MotionPrice& price, double tolerance)
-      : form_(form), price_(price), tolerance_(tolerance), limits_(form.limits) {
+  RateSearch(const PowerForm& form, const MotionPrice& price, const std::vector<double>& per_rad_J,
+             double tolerance)
+      : form_(form),
+        price_(price),
+        per_rad_J_(Eigen::Map<const Eigen::ArrayXd>(per_rad_J.data(), std::ssize(per_rad_J))),
+        tolerance_(tolerance),
+        limits_(form.limits),
+        best_(Values::Constant(per_rad_J_.size(), kNoLimit)) {
     most_m_s_ = std::min(limits_.speed_m_s, price.most_m_s);
     a_ = {-limits_.deceleration_m_s2, limits_.acceleration_m_s2};
     b_ = {-limits_.yaw_acceleration_rad_s2, limits_.yaw_acceleration_rad_s2};
   }
 
-  double find() {
+  std::vector<double> find() {
+    const bool any_turn = (per_rad_J_ != 0).any();
     for (const Sector& sector : form_.sectors)
-      if (!sector.mirrored || price_.per_rad_J != 0) add_octaves(sector);
-    for (int count = 0; count < kMostCells && !cells_.empty(); ++count) {
-      const Cell cell = cells_.top();
-      if (cell.low >= best_ - tolerance_ || best_ < kLowest) break;
-      cells_.pop();
-      split(cell);
+      if (!sector.mirrored || any_turn) add_octaves(sector);
+    Values low = Values::Constant(best_.size(), kNoLimit);
+    for (int splits = 0; !open_.empty();) {
+      const std::size_t k = open_.top().second;
+      open_.pop();
+      const double gain = gain_of(cells_[k]);
+      if (!open_.empty() && gain < open_.top().first) {
+        open_.emplace(gain, k);
+      } else if (gain > tolerance_ && splits < kMostCells) {
+        split(Cell(cells_[k])), ++splits;
+      } else {
+        low = low.min(cells_[k].low);
+      }
     }
-    return cells_.empty() ? best_ : std::min(best_, cells_.top().low);
+    low = low.min(best_);
+    return {low.begin(), low.end()};
+  }
+
+  /// Least power of turning in place per yaw rate, at samples of it.
+  double turning_price() {
+    double price_J = kNoLimit;
+    for (const Sector& sector : form_.sectors)
+      for (int k = 1; k <= kYawRates && sector.turning && sector.x_high == 0; ++k) {
+        Cell cell{.sector = &sector};
+        const double m = most_m(sector) * k / kYawRates;
+        price_J = std::min(price_J, choose_weights(cell, m, 0).value * form_.half_track_m / m);
+      }
+    return price_J;
   }
 
  private:
-  static constexpr double kLowest = -1e7;  ///< below it the rate counts as unbounded
+  static constexpr double kLowest = -1e7;  ///< below it a rate counts as unbounded
+
+  double gain_of(const Cell& cell) const {
+    return (best_ < kLowest || cell.low == kNoLimit).select(-kNoLimit, best_ - cell.low).maxCoeff();
+  }
 
   double most_m(const Sector& sector) const {
     const double spin = limits_.yaw_rate_rad_s * form_.half_track_m;
@@ -112,9 +147,11 @@ class RateSearch {
     const Sector& sector = *cell.sector;
     const double v = sector.turning ? m * x : m;
     const double w = sector.turn * (sector.turning ? m : m * x) / form_.half_track_m;
-    Square f{.c = form_.standby_W + price_.time_W - price_.per_rad_J * w,
+    Square f{.c = form_.standby_W + price_.time_W,
              .ra = 2 * price_.p * v,
-             .rb = -price_.spin * form_.yaw_inertia_kg_m2 * w};
+             .rb = -price_.credit.spin * form_.yaw_inertia_kg_m2 * w};
+    if (sector.turning)
+      f.ra += price_.credit.inner, f.rb -= price_.credit.inner * form_.half_track_m * sector.turn;
     for (Side side : kSides) {
       const WheelForm& k = sector.wheel[side];
       const double i = k.i0 + m * (k.b0 + k.b1 * x) + m * m * (k.d0 + x * (k.d1 + x * k.d2));
@@ -209,7 +246,12 @@ class RateSearch {
     return 0.125 * (dm * dm * std::max(0.0, mm.high) + dx * dx * std::max(0.0, xx.high));
   }
 
-  double speed(const Cell& cell, double m, double x) const { return cell.sector->turning ? m * x : m; }
+  static double speed(const Cell& cell, double m, double x) { return cell.sector->turning ? m * x : m; }
+
+  /// What the heading pays per second.
+  Values heading_W(const Cell& cell, double m, double x) const {
+    return per_rad_J_ * (cell.sector->turn * (cell.sector->turning ? m : m * x) / form_.half_track_m);
+  }
 
   void push(Cell cell) {
     if (beyond(cell)) return;
@@ -217,34 +259,41 @@ class RateSearch {
     const Least middle = choose_weights(cell, m, x);
     if (inside(cell, m, x)) {
       const double v = speed(cell, m, x);
-      best_ = std::min(best_, v > 0              ? (middle.value + cubic(v)) / v
-                              : middle.value < 0 ? -kNoLimit
-                                                 : kNoLimit);
+      const Values watts = middle.value + cubic(v) - heading_W(cell, m, x);
+      best_ = best_.min(rates(watts, v, watts < 0));
     }
     cell.low = low_of(cell);
-    cells_.push(cell);
+    open_.emplace(gain_of(cell), cells_.size());
+    cells_.push_back(cell);
+  }
+
+  /// Per meter; standing still, without a bound where it pays.
+  template <class Pays>
+  static Values rates(const Values& watts, double v, const Pays& pays) {
+    if (v > 0) return watts / v;
+    return pays.select(Values::Constant(watts.size(), -kNoLimit), Values::Constant(watts.size(), kNoLimit));
   }
 
   /// The cubic term is interpolated, or replaced by its least value on the cell: the better of both.
-  double low_of(const Cell& cell) const {
+  Values low_of(const Cell& cell) const {
     const double below = below_interpolation(cell), of_cubic = cubic_below_interpolation(cell);
     const double least_cubic =
         std::min(cubic(speed(cell, cell.m.low, cell.x.low)), cubic(speed(cell, cell.m.high, cell.x.high)));
-    double interpolated = kNoLimit, constant = kNoLimit;
+    Values interpolated = Values::Constant(best_.size(), kNoLimit), constant = interpolated;
     for (double cm : {cell.m.low, cell.m.high})
       for (double cx : {cell.x.low, cell.x.high}) {
         const Square f = square_at(cell, cm, cx, cell.weight);
         const double value = least_on(f, a_, b_).value;
         const double v = speed(cell, cm, cx);
-        const double surely =
-            value - below -
-            kRounding * (form_.standby_W + std::abs(f.c) + std::abs(value) + std::abs(cubic(v)));
-        const auto rate = [&](double watts) { return v > 0 ? watts / v : watts >= 0 ? kNoLimit : -kNoLimit; };
-        interpolated = std::min(interpolated, rate(surely + cubic(v) - of_cubic));
-        constant = std::min(constant, rate(surely + least_cubic));
+        const Values pay = heading_W(cell, cm, cx);
+        const Values surely =
+            value - below - pay -
+            kRounding * (form_.standby_W + std::abs(f.c) + std::abs(value) + std::abs(cubic(v)) + pay.abs());
+        interpolated = interpolated.min(rates(surely + cubic(v) - of_cubic, v, surely < of_cubic));
+        constant = constant.min(rates(surely + least_cubic, v, surely < -least_cubic));
         if (cell.x.low == cell.x.high) break;
       }
-    return std::max(interpolated, constant);
+    return interpolated.max(constant);
   }
 
   bool inside(const Cell& cell, double m, double x) const {
@@ -267,18 +316,29 @@ class RateSearch {
 
   const PowerForm& form_;
   const MotionPrice& price_;
+  Values per_rad_J_{};
   double tolerance_{};
   const Limits& limits_;
   double most_m_s_{};
   Range a_{}, b_{};
-  double best_{kNoLimit};
-  std::priority_queue<Cell> cells_{};
+  Values best_{};
+  std::vector<Cell> cells_{};
+  std::priority_queue<std::pair<double, std::size_t>> open_{};  ///< by how much a cell may lie below the best
 };
 
 }  // namespace
 
 double least_rate(const PowerForm& form, const MotionPrice& price, double tolerance) {
-  return RateSearch(form, price, tolerance).find();
+  return least_rates(form, price, {0.0}, tolerance).front();
+}
+
+double turning_price(const PowerForm& form, const TurnCredit& credit, double time_W) {
+  return RateSearch(form, {.credit = credit, .time_W = time_W}, {}, 0).turning_price();
+}
+
+std::vector<double> least_rates(const PowerForm& form, const MotionPrice& price,
+                                const std::vector<double>& per_rad_J, double tolerance) {
+  return RateSearch(form, price, per_rad_J, tolerance).find();
 }
 
 }  // namespace joulepath

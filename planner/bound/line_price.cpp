@@ -1,6 +1,7 @@
 #include "planner/bound/line_price.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace joulepath {
@@ -10,7 +11,7 @@ constexpr int kAccelerations = 40;  ///< sampled between 0 and the limit
 constexpr double kSlowest = 0.004;  ///< first node, of the greatest speed
 constexpr int kSlowNodes = 12;      ///< up to a tenth of it, in equal ratios
 constexpr int kFastNodes = 22;
-constexpr double kLongest_m = 0.04;  ///< of the pieces between nodes
+constexpr double kLongest_m = 0.1;  ///< of the pieces between nodes
 constexpr double kShortest_m = 0.025;
 constexpr double kShortestShare = 0.3;  ///< of the way from rest, near rest
 
@@ -178,39 +179,83 @@ MotionPrice price_on(const LinePrice& line, std::size_t piece, bool at_end, cons
 namespace {
 
 constexpr double kTolerance = 0.03;         ///< J/m
+constexpr double kRoughly = 0.2;            ///< J/m, to choose by
 constexpr double kPieceTolerance_J = 2e-3;  ///< of a short piece
 
 /// Integral of the least rate over one piece. The rate is concave along it: the mean of its ends is a bound.
-double piece_J(const PowerForm& form, const LinePrice& line, std::size_t piece, double spin, double time_W) {
+double piece_J(const PowerForm& form, const LinePrice& line, std::size_t piece, const TurnCredit& credit,
+               double time_W) {
   const double ds = line.s_m[piece + 1] - line.s_m[piece];
   if (!(ds > 0)) return 0;
   double sum = 0;
   for (bool at_end : {false, true}) {
     MotionPrice price = price_on(line, piece, at_end, form);
-    price.spin = spin, price.time_W = time_W;
+    price.credit = credit, price.time_W = time_W;
     sum += 0.5 * ds * least_rate(form, price, std::max(kTolerance, kPieceTolerance_J / ds));
   }
   return sum;
 }
 
+/// Credits to choose from, of rotation and (in its largest yaw momentum over the half track) of an inner
+/// wheel that rolls backward.
+constexpr std::array<TurnCredit, 8> kCredits{
+    {{1.2, 0.45}, {1.2, 0.22}, {1, 0.45}, {1, 0.22}, {1, 0}, {0.4, 0.22}, {0.4, 0}, {0, 0}}};
+
+/// The energy of rotation is priced as it is at the peak, above it only while the robot speeds up, below it
+/// only while it slows down.
+bool suits(const TurnCredit& credit, std::size_t piece, std::size_t peak) {
+  return piece == peak ? credit.spin == 1 : piece < peak ? credit.spin >= 1 : credit.spin <= 1;
+}
+
 }  // namespace
+
+std::vector<TurnCredit> falling_credits(const PowerForm& form, const LinePrice& line, double time_W,
+                                        const std::vector<double>& before_J,
+                                        const std::vector<double>& after_J) {
+  const double momentum = form.yaw_inertia_kg_m2 * form.limits.yaw_rate_rad_s / form.half_track_m;
+  std::array<TurnCredit, kCredits.size()> credits = kCredits;
+  for (TurnCredit& credit : credits) credit.inner *= momentum;
+  const std::size_t pieces = line.s_m.size() - 1;
+  std::array<double, kCredits.size()> best{};
+  std::vector<std::array<std::size_t, kCredits.size()>> before(pieces);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const double ds = line.s_m[k + 1] - line.s_m[k];
+    std::array<double, kCredits.size()> next;
+    for (std::size_t j = 0; j < credits.size(); ++j) {
+      next[j] = -kNoLimit;
+      if (!suits(credits[j], k, line.peak)) continue;
+      std::size_t& from = before[k][j] = j;
+      for (std::size_t i = 0; i < credits.size(); ++i)
+        if (credits[i].spin >= credits[j].spin && credits[i].inner >= credits[j].inner &&
+            best[i] > best[from])
+          from = i;
+      next[j] = best[from];
+      if (!(ds > 0)) continue;
+      MotionPrice price = price_on(line, k, false, form);
+      price.credit = credits[j], price.time_W = time_W;
+      for (const double rate : least_rates(form, price, k <= line.peak ? before_J : after_J,
+                                           std::max(kRoughly, kPieceTolerance_J / ds)))
+        next[j] += ds * rate;
+    }
+    best = next;
+  }
+  std::vector<TurnCredit> chosen(pieces);
+  std::size_t j = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
+  for (std::size_t k = pieces; k-- > 0; j = before[k][j]) chosen[k] = credits[j];
+  return chosen;
+}
 
 LineBound line_bound(const PowerForm& form, double length_m, double time_W) {
   const LinePrice line = line_price(form, length_m, time_W);
+  const std::vector<TurnCredit> credits = falling_credits(form, line, time_W, {0.0}, {0.0});
   LineBound bound{.length_m = length_m};
-  const double per_m_J =
-      least_rate(form, {.p = line.p[line.peak], .spin = 1, .time_W = time_W}, 0.1 * kTolerance);
+  const double per_m_J = least_rate(
+      form, {.p = line.p[line.peak], .credit = credits[line.peak], .time_W = time_W}, 0.1 * kTolerance);
   if (!(per_m_J >= 0)) return bound;
   bound.per_m_J = per_m_J;
-  // A credit for the energy of rotation may fall, but not rise: it falls at the peak of speed, or nowhere.
-  double before = 0, after[2] = {0, 0};
-  for (std::size_t k = 0; k + 1 < line.s_m.size(); ++k) {
-    if (k <= line.peak)
-      before += piece_J(form, line, k, 1, time_W);
-    else
-      for (int spin : {0, 1}) after[spin] += piece_J(form, line, k, spin, time_W);
-  }
-  bound.energy_J = std::max(0.0, before + std::max(after[0], after[1]));
+  for (std::size_t k = 0; k < credits.size(); ++k)
+    bound.energy_J += piece_J(form, line, k, credits[k], time_W);
+  bound.energy_J = std::max(0.0, bound.energy_J);
   return bound;
 }
 

@@ -26,6 +26,12 @@ struct LinePrice {
 [[nodiscard]] MotionPrice price_on(const LinePrice& line, std::size_t piece, bool at_end,
                                    const PowerForm& form);
 
+/// The credits of a turning robot on each piece. They may fall, but not rise: chosen for the greatest mean of
+/// the rates at prices of a radian of heading up to the peak and after it.
+[[nodiscard]] std::vector<TurnCredit> falling_credits(const PowerForm& form, const LinePrice& line,
+                                                      double time_W, const std::vector<double>& before_J,
+                                                      const std::vector<double>& after_J);
+
 /// A lower bound of every motion from rest to rest whose way is at least as long as a line, whatever its
 /// path, its turns in place and its changes of direction.
 struct LineBound {

@@ -10,14 +10,34 @@
 namespace joulepath {
 namespace {
 
-constexpr double kLeastLine_m = 0.05;  ///< a shorter line is bounded by zero
+constexpr double kLeastLine_m = 0.05;    ///< a shorter line is bounded by zero
+constexpr double kLeastHeading_m = 0.2;  ///< the shortest line that knows headings
+constexpr double kLengthRatio = 1.12;    ///< of the lines that know headings, below the long one
+constexpr double kHeadingGain_J = 0.01;  ///< that counts
 
-LegEnds ends_of(const LegPlan& leg) {
+LegEnds ends_of(const LegPlan& leg, const std::optional<double>& start_rad,
+                const std::optional<double>& goal_rad, double cost_J) {
   Path path;
   for (const StretchPlan& stretch : leg.stretches) path.pieces.push_back(stretch.request.piece);
   const Pose goal = path.pieces.empty() ? leg.start_pose : path.end();
-  return {
-      {leg.start_pose.x_m, leg.start_pose.y_m}, {goal.x_m, goal.y_m}, leg.payload.from_kg, leg.distance_m};
+  return {.start_m = {leg.start_pose.x_m, leg.start_pose.y_m},
+          .goal_m = {goal.x_m, goal.y_m},
+          .start_rad = start_rad,
+          .goal_rad = goal_rad,
+          .payload_kg = leg.payload.from_kg,
+          .way_at_most_m = leg.distance_m,
+          .cost_at_most_J = cost_J};
+}
+
+/// Headings that a mission names at its stops: the start's, then each leg's goal.
+std::vector<std::optional<double>> named_headings(const MissionRequest& mission, const Plan& plan) {
+  std::vector<std::optional<double>> headings(1);
+  if (mission.start.heading_given) headings[0] = mission.start.pose.heading_rad;
+  for (const LegPlan& leg : plan.legs) {
+    const auto station = mission.stations.find(leg.to);
+    headings.push_back(station == mission.stations.end() ? std::nullopt : station->second.heading_rad);
+  }
+  return headings;
 }
 
 std::string not_covered(const LegPlan& leg, bool least_time) {
@@ -31,15 +51,38 @@ std::string not_covered(const LegPlan& leg, bool least_time) {
   return "";
 }
 
-LegBound bound_of(LegBounds& bounds, const LegPlan& leg, bool least_time, double time_W) {
-  LegBound found{.reason = not_covered(leg, least_time)};
-  return found.reason.empty() ? bounds.find(ends_of(leg), time_W) : found;
-}
+/// Bounds of a plan's legs, each at a price of a second.
+class PlanBounds {
+ public:
+  PlanBounds(const Plan& plan, const MissionRequest& mission, const Plant& plant, const Robot& robot,
+             const RouteSpace* space)
+      : plan_(plan),
+        headings_(named_headings(mission, plan)),
+        least_time_(mission.objective.minimize == Objective::Minimize::time),
+        standby_W_(plant.robot.power.standby_W),
+        bounds_(plant, robot, space) {}
+
+  LegBound find(std::size_t k, double time_W) {
+    const LegPlan& leg = plan_.legs[k];
+    if (const std::string reason = not_covered(leg, least_time_); !reason.empty()) return {.reason = reason};
+    const double cost_J = leg.energy.total_J() - standby_W_ * leg.dwell_s + time_W * leg.duration_s;
+    return bounds_.find(ends_of(leg, headings_[k], headings_[k + 1], cost_J), time_W);
+  }
+
+ private:
+  const Plan& plan_;
+  std::vector<std::optional<double>> headings_;
+  bool least_time_{};
+  double standby_W_{};
+  LegBounds bounds_;
+};
 
 PathBound path_bound(const LegBound& found, double price_W, double driving_s, double dwell_J) {
   if (!found.reason.empty()) return {.reason = found.reason};
   return {.energy_J = std::max(0.0, found.cost_J - price_W * driving_s) + dwell_J,
-          .part = found.around_corners ? PathBound::Part::corners : PathBound::Part::line};
+          .part = found.around_corners ? PathBound::Part::corners
+                  : found.by_headings  ? PathBound::Part::headings
+                                       : PathBound::Part::line};
 }
 
 }  // namespace
@@ -50,12 +93,41 @@ const PowerForm& LegBounds::form(double payload_kg) {
   return forms_[payload_kg] = power_form(plant_, limits_along(robot_, {payload_kg, payload_kg}), payload_kg);
 }
 
-double LegBounds::line_J(double payload_kg, double time_W, double way_m) {
-  if (way_m < kLeastLine_m) return 0;
-  const double length_m = std::min(way_m, long_line_m(form(payload_kg), time_W));
+const LineBound& LegBounds::line(double payload_kg, double time_W, double length_m) {
   const auto [found, is_new] = lines_.try_emplace({payload_kg, time_W, length_m});
   if (is_new) found->second = line_bound(form(payload_kg), length_m, time_W);
-  return found->second.at(way_m);
+  return found->second;
+}
+
+const RateTable& LegBounds::rates(const LegEnds& leg, double time_W, double length_m) {
+  const bool start = leg.start_rad.has_value(), goal = leg.goal_rad.has_value();
+  const auto [found, is_new] = rates_.try_emplace({leg.payload_kg, time_W, length_m, start, goal});
+  if (is_new) found->second = rate_table(form(leg.payload_kg), length_m, time_W, start, goal);
+  return found->second;
+}
+
+/// Ways are at least `way_m` long. Each line counts up to the length of the next: the last one without an
+/// end, which is where a straight line takes more than is known to be enough.
+double LegBounds::with_headings_J(const LegEnds& leg, double time_W, double way_m, double line_J) {
+  const double long_m = long_line_m(form(leg.payload_kg), time_W);
+  int shorter = 0;
+  while (long_m * std::pow(kLengthRatio, -shorter) > way_m) ++shorter;
+  const HeadingEnds ends{
+      {leg.goal_m[0] - leg.start_m[0], leg.goal_m[1] - leg.start_m[1]}, leg.start_rad, leg.goal_rad};
+  double bound_J = leg.cost_at_most_J, from_m = way_m, straight_J = line_J;
+  for (; straight_J < bound_J; --shorter) {
+    const double length_m = long_m * std::pow(kLengthRatio, -shorter);
+    const LineBound& straight = line(leg.payload_kg, time_W, length_m);
+    if (!(straight.per_m_J > 0)) return line_J;
+    const double to_m =
+        shorter > 0 ? length_m * kLengthRatio : from_m + (bound_J - straight_J) / straight.per_m_J;
+    const double found_J = heading_bound(rates(leg, time_W, length_m), ends, from_m, to_m, bound_J);
+    bound_J = std::min(bound_J, std::max(found_J, straight_J));
+    if (shorter == 0) break;
+    from_m = to_m;
+    straight_J = std::max(straight_J, line(leg.payload_kg, time_W, to_m).at(to_m));
+  }
+  return bound_J;
 }
 
 LegBound LegBounds::find(const LegEnds& leg, double time_W) {
@@ -66,20 +138,27 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
     const double radius_m = space_->checker().inscribed_radius_m() + space_->checker().clearance_m();
     way = shortest_way(space_->field(), radius_m, leg.start_m, leg.goal_m, leg.way_at_most_m);
   }
-  return {.cost_J = line_J(leg.payload_kg, time_W, way.length_m), .around_corners = way.around_corners};
+  LegBound bound{.cost_J = 0, .around_corners = way.around_corners};
+  if (way.length_m < kLeastLine_m) return bound;
+  const double long_m = long_line_m(form(leg.payload_kg), time_W);
+  const double line_J = line(leg.payload_kg, time_W, std::min(way.length_m, long_m)).at(way.length_m);
+  bound.cost_J = line_J;
+  if ((leg.start_rad || leg.goal_rad) && way.length_m > kLeastHeading_m && std::isfinite(leg.cost_at_most_J))
+    bound.cost_J = std::max(line_J, with_headings_J(leg, time_W, way.length_m, line_J));
+  bound.by_headings = bound.cost_J > line_J + kHeadingGain_J;
+  return bound;
 }
 
 void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
                      const RouteSpace* space) {
   if (plan.status > SolveStatus::feasible || plan.legs.empty()) return;
-  LegBounds bounds(plant, world.robot, space);
-  const bool least_time = mission.objective.minimize == Objective::Minimize::time;
+  PlanBounds bounds(plan, mission, plant, world.robot, space);
   const double standby_W = plant.robot.power.standby_W;
   double driving_s = 0, spent_J = 0, lowest_W = kNoLimit, highest_W = 0;
-  for (LegPlan& leg : plan.legs) {
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    LegPlan& leg = plan.legs[k];
     const double price_W = std::max(0.0, leg.price_of_time_W);
-    leg.path_bound = path_bound(bound_of(bounds, leg, least_time, price_W), price_W, leg.duration_s,
-                                standby_W * leg.dwell_s);
+    leg.path_bound = path_bound(bounds.find(k, price_W), price_W, leg.duration_s, standby_W * leg.dwell_s);
     driving_s += leg.duration_s, spent_J += price_W * leg.duration_s;
     lowest_W = std::min(lowest_W, price_W), highest_W = std::max(highest_W, price_W);
   }
@@ -88,9 +167,9 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   LegBound sum;
   double dwell_s = 0;
   for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
-    const LegBound leg = bound_of(bounds, plan.legs[k], least_time, price_W);
+    const LegBound leg = bounds.find(k, price_W);
     if (!leg.reason.empty()) sum.reason = "leg " + std::to_string(k) + ": " + leg.reason;
-    sum.cost_J += leg.cost_J, sum.around_corners |= leg.around_corners;
+    sum.cost_J += leg.cost_J, sum.around_corners |= leg.around_corners, sum.by_headings |= leg.by_headings;
     dwell_s += plan.legs[k].dwell_s;
   }
   plan.path_bound = path_bound(sum, price_W, driving_s, standby_W * dwell_s);

@@ -188,6 +188,7 @@ PowerForm power_form(const Plant& plant, const Limits& limits, double payload_kg
                  .standby_W = robot.power.standby_W,
                  .regeneration = robot.power.regeneration_efficiency,
                  .shared = robot.power.sharing == PowerSharing::bus,
+                 .reverse = std::isfinite(limits.reverse_speed_m_s),
                  .limits = limits,
                  .payload_kg = payload_kg};
   form.yaw_inertia_kg_m2 = mass_properties(robot, plant.payload_kg(payload_kg)).yaw_inertia_kg_m2 +
@@ -196,6 +197,7 @@ PowerForm power_form(const Plant& plant, const Limits& limits, double payload_kg
   form.not_covered = missing_limit(form);
   if (form.not_covered.empty() && !fit(plain, payload_kg, form.sectors))
     form.not_covered = "the bound does not cover " + culprit(plain, payload_kg);
+  if (!form.reverse) std::erase_if(form.sectors, [](const Sector& sector) { return sector.travel < 0; });
   mark_mirrored(form.sectors);
   return form;
 }

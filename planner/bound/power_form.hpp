@@ -41,6 +41,7 @@ struct PowerForm {
   double standby_W{};
   double regeneration{};       ///< eta
   bool shared{};               ///< the sum of the powers is recovered, not each
+  bool reverse{};              ///< the robot may drive backward
   double yaw_inertia_kg_m2{};  ///< credited to a turning robot: any value gives a valid bound
   Limits limits{};
   double payload_kg{};

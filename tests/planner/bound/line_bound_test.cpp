@@ -72,6 +72,7 @@ TEST(LineBound, NoMotionOfItsLengthOrMoreTakesLess) {
       for (const Motion& motion : motions) {
         const Driven driven = drive(judge, motion);
         if (!driven.within_limits || driven.way_m < way_m) continue;
+        if (variant.forward_only && drives_backward(motion)) continue;
         ++judged;
         EXPECT_GE(driven.energy_J, bound.at(driven.way_m))
             << variant.name << ", " << motion.kind << ", " << driven.way_m << " m";
@@ -83,7 +84,7 @@ TEST(LineBound, NoMotionOfItsLengthOrMoreTakesLess) {
 
 /// A price of a second raises the bound by no more than the time of any motion.
 TEST(LineBound, TimeAtItsPriceIsContained) {
-  const Robot robot = nomad();
+  const Robot robot = robot_of(kVariants[0]);
   const JudgeRobot judge = path_bound::judge_robot(robot, *robot.limits, 0);
   const LineBound bound = line_bound(form_of(robot), 2.0, 15.0);
   EXPECT_GT(bound.energy_J, line_bound(form_of(robot), 2.0, 0.0).energy_J + 20);
@@ -105,7 +106,7 @@ TEST(LineBound, IsCloseToTheStraightLine) {
     ASSERT_TRUE(line.profile);
     const double bound_J = line_bound(form_of(robot), way_m, 0.0).energy_J;
     EXPECT_LE(bound_J, line.summary.lower_bound_J) << way_m;
-    EXPECT_GE(bound_J, line.summary.lower_bound_J - 1.8) << way_m;
+    EXPECT_GE(bound_J, line.summary.lower_bound_J - 1.3) << way_m;
   }
 }
 
@@ -121,7 +122,7 @@ TEST(LineBound, GrowsWithTheWay) {
 
 /// A robot whose wheels change places takes the same.
 TEST(LineBound, MirrorImageHasTheSameBound) {
-  Robot robot = robot_of(kVariants[4]);
+  Robot robot = robot_of(kVariants[5]);
   const double one_J = line_bound(form_of(robot, 2), 1.2, 0.0).energy_J;
   std::swap(robot.motor.left, robot.motor.right);
   EXPECT_NEAR(line_bound(form_of(robot, 2), 1.2, 0.0).energy_J, one_J, 0.05);

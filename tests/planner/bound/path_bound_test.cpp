@@ -42,6 +42,28 @@ TEST(PathBounds, LieBelowEachLegAndTheMissionAndAddUp) {
   EXPECT_FALSE(planned(two_legs(), false).path_bound);
 }
 
+/// Headings at the ends raise the bound, and no further than what a plan takes.
+TEST(PathBounds, KnowTheHeadingsThatAMissionNames) {
+  MissionRequest mission;
+  mission.stations = {{"a", {.x_m = 7, .y_m = 5}}};
+  mission.start.pose = {5, 5, 3.0};
+  mission.legs = {{.to = "a"}};
+  const Plan backward = planned(mission);
+  ASSERT_LE(backward.status, SolveStatus::feasible) << backward.message;
+  EXPECT_EQ(backward.path_bound->part, PathBound::Part::headings);
+  EXPECT_LE(*backward.path_bound->energy_J, backward.energy.total_J());
+  mission.start.pose.heading_rad = 0;
+  const Plan ahead = planned(mission);
+  EXPECT_EQ(ahead.path_bound->part, PathBound::Part::line);
+  EXPECT_GT(*backward.path_bound->energy_J, *ahead.path_bound->energy_J + 3);
+  mission.start.heading_given = false;
+  mission.stations["a"].heading_rad = 3.0;
+  const Plan turned = planned(mission);
+  ASSERT_LE(turned.status, SolveStatus::feasible) << turned.message;
+  EXPECT_EQ(turned.path_bound->part, PathBound::Part::headings);
+  EXPECT_LE(*turned.path_bound->energy_J, turned.energy.total_J());
+}
+
 /// A deadline that is felt raises the bound, as it raises the plan.
 TEST(PathBounds, ContainThePriceOfADeadline) {
   MissionRequest mission = two_legs();

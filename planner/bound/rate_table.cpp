@@ -1,0 +1,87 @@
+#include "planner/bound/rate_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace joulepath {
+namespace {
+
+constexpr int kPricesEachWay = 8;
+constexpr double kRateTolerance = 0.05;    ///< J/m
+constexpr double kRateTolerance_J = 5e-3;  ///< of a short piece
+constexpr double kTypicalPrice = 0.5;      ///< of the price at which turning in place pays
+constexpr double kWidest = 0.97;           ///< of that price
+constexpr double kNarrower = 0.85;
+constexpr double kNarrowest = 0.2;
+
+/// Rates of motions at prices of a radian of heading. Where a price has no certified bound the prices of that
+/// credit move together.
+class RateSamples {
+ public:
+  RateSamples(const PowerForm& form, double time_W) : form_(form), time_W_(time_W) {}
+
+  HeadingRates at(MotionPrice price, const TurnCredit& credit, double tolerance) {
+    price.credit = credit, price.time_W = time_W_;
+    const double turning_J = turning_price(form_, credit, time_W_);
+    double& most_J = most_J_.try_emplace({credit.spin, credit.inner}, kWidest * turning_J).first->second;
+    while (most_J > kNarrowest * turning_J && !bounded(price, {-most_J, most_J}, tolerance))
+      most_J *= kNarrower;
+    const std::vector<double> rates = least_rates(form_, price, prices(most_J), tolerance);
+    return {most_J, Eigen::Map<const Eigen::ArrayXd>(rates.data(), std::ssize(rates))};
+  }
+
+ private:
+  static std::vector<double> prices(double most_J) {
+    std::vector<double> prices;
+    for (int k = -kPricesEachWay; k <= kPricesEachWay; ++k) prices.push_back(most_J * k / kPricesEachWay);
+    return prices;
+  }
+
+  bool bounded(const MotionPrice& price, const std::vector<double>& per_rad_J, double tolerance) const {
+    const std::vector<double> rates = least_rates(form_, price, per_rad_J, tolerance);
+    return std::all_of(rates.begin(), rates.end(), [](double rate) { return std::isfinite(rate); });
+  }
+
+  const PowerForm& form_;
+  double time_W_{};
+  std::map<std::pair<double, double>, double> most_J_{};  ///< by credit
+};
+
+}  // namespace
+
+double HeadingRates::operator()(double per_rad_J) const {
+  const double place = (per_rad_J + most_J) / step_J();
+  const Eigen::Index k = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(place), 0, at.size() - 2);
+  const double share = std::clamp(place - static_cast<double>(k), 0.0, 1.0);
+  return at[k] + share * (at[k + 1] - at[k]);
+}
+
+RateTable rate_table(const PowerForm& form, double length_m, double time_W, bool start_given,
+                     bool goal_given) {
+  RateTable table{.line = line_price(form, length_m, time_W), .reverse = form.reverse};
+  const double typical_J = kTypicalPrice * turning_price(form, {.spin = 1}, time_W);
+  const std::vector<double> free{0.0}, given{-typical_J, 0.0, typical_J};
+  const std::vector<TurnCredit> credits =
+      falling_credits(form, table.line, time_W, start_given ? given : free, goal_given ? given : free);
+  RateSamples rates(form, time_W);
+  const std::size_t peak = table.line.peak;
+  table.middle = rates.at({.p = table.line.p[peak]}, credits[peak], kRateTolerance);
+  for (std::size_t k = 0; k < credits.size(); ++k) {
+    const double ds = table.line.s_m[k + 1] - table.line.s_m[k];
+    if (!(ds > 0)) {
+      table.pieces.push_back({table.middle, table.middle});
+      continue;
+    }
+    const double tolerance = std::max(kRateTolerance, kRateTolerance_J / ds);
+    table.pieces.push_back({rates.at(price_on(table.line, k, false, form), credits[k], tolerance),
+                            rates.at(price_on(table.line, k, true, form), credits[k], tolerance)});
+  }
+  const auto bounded = [](const HeadingRates& at) { return at.at.isFinite().all(); };
+  table.bounded = bounded(table.middle) &&
+                  std::all_of(table.pieces.begin(), table.pieces.end(),
+                              [&](const auto& ends) { return bounded(ends[0]) && bounded(ends[1]); });
+  return table;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,147 @@
+// The bound that knows headings, against motions that code of another kind makes and drives.
+#include "planner/bound/heading_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/path_bound/judge_robot.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+using path_bound::Driven;
+using path_bound::JudgeRobot;
+using path_bound::Motion;
+using path_bound::Variant;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A robot, the table of its rates on a line, and the bound of motions of about that length.
+struct Turning {
+  Robot robot{};
+  PowerForm form{};
+  JudgeRobot judge{};
+  RateTable table{};
+
+  Turning(const Variant& variant, double way_m)
+      : robot(path_bound::robot_of(testing::nomad(), variant)),
+        form(power_form(make_plant(robot), *robot.limits, variant.payload_kg)),
+        judge(path_bound::judge_robot(robot, *robot.limits, variant.payload_kg)),
+        table(rate_table(form, way_m, 0, true, true)) {}
+
+  double bound_J(const Driven& driven) const {
+    const HeadingEnds ends{{driven.x_m, driven.y_m}, 0.0, driven.heading_rad};
+    return heading_bound(table, ends, driven.way_m, driven.way_m, kNoLimit);
+  }
+  double bound_J(double way_m, double start_deg, std::optional<double> goal_deg, double more_m = 0) const {
+    HeadingEnds ends{{way_m, 0}, start_deg * kDegree, std::nullopt};
+    if (goal_deg) ends.goal_rad = *goal_deg * kDegree;
+    return heading_bound(table, ends, std::max(way_m, table.line.length_m()), way_m + more_m, kNoLimit);
+  }
+};
+
+TEST(HeadingBound, NoMotionBetweenItsPosesTakesLess) {
+  std::mt19937 random(47);
+  int judged = 0;
+  for (const Variant& variant : path_bound::kVariants)
+    for (const double way_m : {0.6, 3.2}) {
+      const Turning turning(variant, way_m);
+      const std::vector<Motion> worst = worst_motions(turning.judge, way_m * 1.0005);
+      std::vector<Motion> motions;
+      for (std::size_t k = 0; k < worst.size(); k += 9) motions.push_back(worst[k]);
+      for (int k = 0; k < 16; ++k) motions.push_back(random_motion(turning.judge, way_m * 1.001, random));
+      for (const Motion& motion : motions) {
+        const Driven driven = drive(turning.judge, motion);
+        if (!driven.within_limits || driven.way_m < way_m) continue;
+        if (variant.forward_only && drives_backward(motion)) continue;
+        ++judged;
+        EXPECT_GE(driven.energy_J, turning.bound_J(driven))
+            << variant.name << ", " << motion.kind << ", " << driven.way_m << " m";
+      }
+    }
+  EXPECT_GT(judged, 150);
+}
+
+TEST(HeadingBound, RisesWithTheHeadingOffTheLine) {
+  const Turning forward({.forward_only = true}, 2.0);
+  double before_J = forward.bound_J(2.0, 0, std::nullopt);
+  const double straight_J = before_J;
+  for (const double start_deg : {90.0, 135.0, 180.0}) {
+    const double bound_J = forward.bound_J(2.0, start_deg, std::nullopt);
+    EXPECT_GT(bound_J, before_J) << start_deg;
+    before_J = bound_J;
+  }
+  EXPECT_GT(before_J, straight_J + 4);
+  EXPECT_GT(forward.bound_J(2.0, 90, 90), forward.bound_J(2.0, 90, std::nullopt) + 2);
+}
+
+/// In line, it gives little away beside the bound of a line of that length.
+TEST(HeadingBound, InLineItIsThatOfTheLine) {
+  const Turning turning({}, 2.0);
+  const double line_J = line_bound(turning.form, 2.0, 0).energy_J;
+  EXPECT_NEAR(turning.bound_J(2.0, 0, 0), line_J, 1.0);
+}
+
+/// The sum over all lengths is the least: a motion may be longer, or leave the further part out.
+TEST(HeadingBound, MoreFreedomNeverRaisesIt) {
+  const Turning turning({}, 1.5);
+  const double exact_J = turning.bound_J(1.5, 120, 60);
+  EXPECT_LE(turning.bound_J(1.5, 120, 60, 0.3), exact_J + 1e-9);
+  EXPECT_LE(turning.bound_J(1.5, 120, std::nullopt), exact_J + 0.2);
+  const Turning forward({.forward_only = true}, 1.5);
+  EXPECT_GT(forward.bound_J(1.5, 180, 180), turning.bound_J(1.5, 180, 180) + 3)
+      << "a robot that may drive backward need not turn";
+}
+
+TEST(HeadingBound, MirrorImageHasTheSameBound) {
+  const Variant uneven{.payload_kg = 3, .friction_left_Nm = 0.6};
+  Turning left(uneven, 1.2);
+  Robot mirrored = left.robot;
+  std::swap(mirrored.motor.left, mirrored.motor.right);
+  Turning right = left;
+  right.form = power_form(make_plant(mirrored), *mirrored.limits, uneven.payload_kg);
+  right.table = rate_table(right.form, 1.2, 0, true, true);
+  EXPECT_NEAR(left.bound_J(1.2, 100, -30), right.bound_J(1.2, -100, 30), 0.15);
+}
+
+/// Turned and moved, the same drive has the same bound.
+TEST(HeadingBound, DependsOnTheHeadingsRelativeToTheLine) {
+  const Turning turning({}, 1.2);
+  const auto at = [&](double course_deg) {
+    const double course = course_deg * kDegree;
+    const HeadingEnds ends{{1.2 * std::cos(course), 1.2 * std::sin(course)}, course + 1.7, course - 0.6};
+    return heading_bound(turning.table, ends, 1.2, 1.2, kNoLimit);
+  };
+  EXPECT_NEAR(at(37), at(0), 0.1);
+  EXPECT_NEAR(at(-160), at(0), 0.1);
+}
+
+/// Mistakes in the bound, each of which some motion made for it must reveal.
+int found_below(const Turning& turning, double way_m, double factor = 1) {
+  const std::vector<Motion> motions = worst_motions(turning.judge, way_m * 1.0005);
+  int below = 0;
+  for (std::size_t k = 0; k < motions.size(); k += 5) {
+    const Driven driven = drive(turning.judge, motions[k]);
+    if (driven.within_limits && driven.way_m >= way_m)
+      below += driven.energy_J < factor * turning.bound_J(driven);
+  }
+  return below;
+}
+
+TEST(MutantsOfTheHeadingBound, AreCaught) {
+  const Variant recovering{.regeneration = 1};
+  const Turning sound(recovering, 2.0);
+  EXPECT_EQ(found_below(sound, 2.0), 0);
+  EXPECT_GT(found_below(sound, 2.0, 1.03), 0) << "all too high by 3 %";
+
+  Turning one_way = sound;
+  std::erase_if(one_way.form.sectors, [](const Sector& sector) { return sector.turn < 0; });
+  one_way.table = rate_table(one_way.form, 2.0, 0, true, true);
+  EXPECT_GT(found_below(one_way, 2.0), 0) << "turns to one side left out";
+}
+
+}  // namespace
+}  // namespace joulepath
