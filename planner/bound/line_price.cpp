@@ -178,8 +178,9 @@ MotionPrice price_on(const LinePrice& line, std::size_t piece, bool at_end, cons
 
 namespace {
 
-constexpr double kTolerance = 0.03;         ///< J/m
-constexpr double kRoughly = 0.2;            ///< J/m, to choose by
+constexpr double kTolerance = 0.03;  ///< J/m
+constexpr double kRoughly = 0.2;     ///< J/m, to choose by
+constexpr std::size_t kPiecesOfACredit = 4;
 constexpr double kPieceTolerance_J = 2e-3;  ///< of a short piece
 
 /// Integral of the least rate over one piece. The rate is concave along it: the mean of its ends is a bound.
@@ -217,31 +218,40 @@ std::vector<TurnCredit> falling_credits(const PowerForm& form, const LinePrice& 
   for (TurnCredit& credit : credits) credit.inner *= momentum;
   const std::size_t pieces = line.s_m.size() - 1;
   std::array<double, kCredits.size()> best{};
-  std::vector<std::array<std::size_t, kCredits.size()>> before(pieces);
-  for (std::size_t k = 0; k < pieces; ++k) {
-    const double ds = line.s_m[k + 1] - line.s_m[k];
+  std::vector<std::array<std::size_t, kCredits.size()>> before;  // of each run
+  std::vector<std::size_t> runs{0};                              // of pieces with one credit: their begins
+  while (runs.back() < pieces) {
+    const std::size_t from = runs.back(), peak = line.peak;
+    const std::size_t to = from < peak    ? std::min(peak, from + kPiecesOfACredit)
+                           : from == peak ? peak + 1
+                                          : std::min(pieces, from + kPiecesOfACredit);
+    const double ds = line.s_m[to] - line.s_m[from];
     std::array<double, kCredits.size()> next;
+    before.emplace_back();
     for (std::size_t j = 0; j < credits.size(); ++j) {
       next[j] = -kNoLimit;
-      if (!suits(credits[j], k, line.peak)) continue;
-      std::size_t& from = before[k][j] = j;
+      if (!suits(credits[j], from, peak)) continue;
+      std::size_t& last = before.back()[j] = j;
       for (std::size_t i = 0; i < credits.size(); ++i)
         if (credits[i].spin >= credits[j].spin && credits[i].inner >= credits[j].inner &&
-            best[i] > best[from])
-          from = i;
-      next[j] = best[from];
+            best[i] > best[last])
+          last = i;
+      next[j] = best[last];
       if (!(ds > 0)) continue;
-      MotionPrice price = price_on(line, k, false, form);
+      MotionPrice price = price_on(line, (from + to) / 2, false, form);
       price.credit = credits[j], price.time_W = time_W;
-      for (const double rate : least_rates(form, price, k <= line.peak ? before_J : after_J,
+      for (const double rate : least_rates(form, price, from <= peak ? before_J : after_J,
                                            std::max(kRoughly, kPieceTolerance_J / ds)))
         next[j] += ds * rate;
     }
     best = next;
+    runs.push_back(to);
   }
   std::vector<TurnCredit> chosen(pieces);
   std::size_t j = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
-  for (std::size_t k = pieces; k-- > 0; j = before[k][j]) chosen[k] = credits[j];
+  for (std::size_t k = before.size(); k-- > 0; j = before[k][j])
+    std::fill(chosen.begin() + std::ptrdiff_t(runs[k]), chosen.begin() + std::ptrdiff_t(runs[k + 1]),
+              credits[j]);
   return chosen;
 }
 

@@ -62,19 +62,26 @@ class PlanBounds {
         standby_W_(plant.robot.power.standby_W),
         bounds_(plant, robot, space) {}
 
-  LegBound find(std::size_t k, double time_W) {
+  const LegBound& find(std::size_t k, double time_W) {
+    const auto [found, is_new] = found_.try_emplace({k, time_W});
+    if (is_new) found->second = bound(k, time_W);
+    return found->second;
+  }
+
+ private:
+  LegBound bound(std::size_t k, double time_W) {
     const LegPlan& leg = plan_.legs[k];
     if (const std::string reason = not_covered(leg, least_time_); !reason.empty()) return {.reason = reason};
     const double cost_J = leg.energy.total_J() - standby_W_ * leg.dwell_s + time_W * leg.duration_s;
     return bounds_.find(ends_of(leg, headings_[k], headings_[k + 1], cost_J), time_W);
   }
 
- private:
   const Plan& plan_;
   std::vector<std::optional<double>> headings_;
   bool least_time_{};
   double standby_W_{};
   LegBounds bounds_;
+  std::map<std::pair<std::size_t, double>, LegBound> found_{};  ///< by leg and price of a second
 };
 
 PathBound path_bound(const LegBound& found, double price_W, double driving_s, double dwell_J) {
@@ -167,7 +174,7 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   LegBound sum;
   double dwell_s = 0;
   for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
-    const LegBound leg = bounds.find(k, price_W);
+    const LegBound& leg = bounds.find(k, price_W);
     if (!leg.reason.empty()) sum.reason = "leg " + std::to_string(k) + ": " + leg.reason;
     sum.cost_J += leg.cost_J, sum.around_corners |= leg.around_corners, sum.by_headings |= leg.by_headings;
     dwell_s += plan.legs[k].dwell_s;

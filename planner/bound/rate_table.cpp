@@ -25,10 +25,11 @@ class RateSamples {
     price.credit = credit, price.time_W = time_W_;
     const double turning_J = turning_price(form_, credit, time_W_);
     double& most_J = most_J_.try_emplace({credit.spin, credit.inner}, kWidest * turning_J).first->second;
-    while (most_J > kNarrowest * turning_J && !bounded(price, {-most_J, most_J}, tolerance))
-      most_J *= kNarrower;
-    const std::vector<double> rates = least_rates(form_, price, prices(most_J), tolerance);
-    return {most_J, Eigen::Map<const Eigen::ArrayXd>(rates.data(), std::ssize(rates))};
+    for (;; most_J *= kNarrower) {
+      const std::vector<double> rates = least_rates(form_, price, prices(most_J), tolerance);
+      HeadingRates found{most_J, Eigen::Map<const Eigen::ArrayXd>(rates.data(), std::ssize(rates))};
+      if (found.at.isFinite().all() || most_J < kNarrowest * turning_J) return found;
+    }
   }
 
  private:
@@ -36,11 +37,6 @@ class RateSamples {
     std::vector<double> prices;
     for (int k = -kPricesEachWay; k <= kPricesEachWay; ++k) prices.push_back(most_J * k / kPricesEachWay);
     return prices;
-  }
-
-  bool bounded(const MotionPrice& price, const std::vector<double>& per_rad_J, double tolerance) const {
-    const std::vector<double> rates = least_rates(form_, price, per_rad_J, tolerance);
-    return std::all_of(rates.begin(), rates.end(), [](double rate) { return std::isfinite(rate); });
   }
 
   const PowerForm& form_;
