@@ -88,13 +88,14 @@ class HeadingStages {
 };
 
 /// The convex function of a stage's turn d that is the largest of c_j + q_j d, from below: exact at d = 0, on
-/// whole cells such that no chord lies above it. Beyond them it is as steep as turning in place.
+/// whole cells such that no chord lies above it, as far as it bends, or up to a given reach.
 class TurnKernel {
  public:
-  TurnKernel(const Eigen::ArrayXd& prices, const Eigen::ArrayXd& constants) {
+  TurnKernel(const Eigen::ArrayXd& prices, const Eigen::ArrayXd& constants, int reach = 0) {
     for (Eigen::Index j = 0; j < prices.size(); ++j) add({prices[j], constants[j]});
     const double widest = std::max(std::abs(bends_.front()), std::abs(bends_.back()));
-    reach_ = std::clamp(static_cast<int>(std::ceil(widest / kCell)), 1, kHeadings / 2 - 1);
+    const int bent = std::clamp(static_cast<int>(std::ceil(widest / kCell)), 1, kHeadings / 2 - 1);
+    reach_ = reach > 0 ? reach : bent;
     values_.assign(static_cast<std::size_t>(2 * reach_ + 1), (*this)(0.0));
     for (const int way : {-1, 1})
       for (int k = 0; k < reach_; ++k)
@@ -102,16 +103,16 @@ class TurnKernel {
   }
 
   int reach() const { return reach_; }
-  double operator()(int cells) const {
-    return std::abs(cells) > reach_ ? kNoLimit : at(values_, cells + reach_);
-  }
+  double operator()(int cells) const { return at(values_, cells + reach_); }
 
- private:
   struct Line {
     double price{}, constant{};
     double operator()(double d) const { return constant + price * d; }
   };
+  /// The function beyond its bends, for turns of one sign.
+  const Line& beyond(int way) const { return way > 0 ? lines_.back() : lines_.front(); }
 
+ private:
   /// The upper envelope of lines of rising slope.
   void add(const Line& line) {
     const auto meet = [&](const Line& before) {
@@ -211,26 +212,30 @@ class HeadingProgram {
     return {around(static_cast<int>(cell)), place - cell};
   }
 
-  /// No steeper than turning in place.
-  void hold_slope(double most_J) {
-    for (int round = 0; round < 2; ++round) {
-      for (int i = 0; i < kHeadings; ++i)
-        at(w_, i) = std::min(at(w_, i), at(w_, around(i - 1)) + most_J * kCell);
-      for (int i = kHeadings; i-- > 0;)
-        at(w_, i) = std::min(at(w_, i), at(w_, around(i + 1)) + most_J * kCell);
+  /// Turns beyond the kernels' reach, with the kernel that holds for all headings.
+  void turn_further(const std::array<double, kHeadings>& before, std::array<double, kHeadings>& after) const {
+    const TurnKernel& any = kernels_.back();
+    const int reach = any.reach();
+    for (const int way : {-1, 1}) {
+      const TurnKernel::Line& line = any.beyond(way);
+      const double at_reach_J = line(way * kCell * reach), further_J = way * line.price * kCell;
+      double least_J = kNoLimit;
+      for (int k = 0; k < 2 * kHeadings; ++k) {
+        const int b = (way > 0 ? k : 2 * kHeadings - k) % kHeadings;
+        least_J = std::min(least_J + further_J, at(before, around(b - way * reach)) + at_reach_J);
+        at(after, b) = std::min(at(after, b), least_J);
+      }
     }
   }
 
   void step(std::size_t k) {
     const HeadingStage& stage = stages_[k];
-    const double most_J = stage.rates.most_J - 0.5 * stage.length_m * size_;
-    if (k == 0 || stage.group != stages_[k - 1].group) make_kernels(stage, most_J);
-    hold_slope(most_J);
+    if (k == 0 || stage.group != stages_[k - 1].group)
+      make_kernels(stage, stage.rates.most_J - 0.5 * stage.length_m * size_);
     if (stage.optional)
       choose(k);
     else
       drive(k);
-    hold_slope(most_J);
   }
 
   void make_kernels(const HeadingStage& stage, double most_J) {
@@ -240,8 +245,6 @@ class HeadingProgram {
       make_optional_kernels(stage, prices);
     else
       make_whole_kernels(stage, prices);
-    reach_ = 0;
-    for (const TurnKernel& kernel : kernels_) reach_ = std::max(reach_, kernel.reach());
   }
 
   /// The price of the place counts at both ends; what it changes in between acts on the price of a radian as
@@ -251,20 +254,21 @@ class HeadingProgram {
     const double ds = stage.length_m, most_J = stage.rates.most_J;
     const double steepest_rate = std::min(stage.rates(-most_J), stage.rates(most_J));
     const double beyond_rad = ds * (stage.rates.at.maxCoeff() - steepest_rate + 2 * size_) / (2 * most_J);
-    const auto kernel = [&](double least_slope, double most_slope) {
+    const auto kernel = [&](double least_slope, double most_slope, int reach) {
       const double one = 0.5 * ds * std::max(least_slope, -size_),
                    two = 0.5 * ds * std::min(most_slope, size_);
       const HeadingRates& h = stage.rates;
       return TurnKernel(prices, prices.unaryExpr([&](double q) {
         return ds *
                (0.5 * h(q) + 0.25 * (std::min(h(q + one), h(q + two)) + std::min(h(q - one), h(q - two))));
-      }));
+      }),
+                        reach);
     };
-    const TurnKernel any = kernel(-size_, size_);
-    const double band = size_ * std::min(2.0, beyond_rad + (0.5 * any.reach() + 1) * kCell);
+    const TurnKernel any = kernel(-size_, size_, 0);
+    const double band = size_ * std::min(2.0, beyond_rad + (0.5 * any.reach() + 2) * kCell);
     for (int level = 0; level <= kLevels; ++level) {
       const double slope = size_ * (2.0 * level / kLevels - 1), half = band + size_ / kLevels;
-      kernels_.push_back(kernel(slope - half, slope + half));
+      kernels_.push_back(kernel(slope - half, slope + half, any.reach()));
     }
     for (int i = 0; i < 2 * kHeadings; ++i) {
       const double turned = anchor_rad_ + 0.5 * kCell * i - course_;
@@ -283,8 +287,10 @@ class HeadingProgram {
     const Eigen::ArrayXd costs = prices.unaryExpr([&](double q) {
       return ds * 0.5 * (stage.rates(q) + std::min(stage.rates(q - shift), stage.rates(q + shift)));
     });
-    for (int level = 0; level <= kLevels; ++level)
-      kernels_.emplace_back(prices, (costs - ds * size_ * (2.0 * level / kLevels - 1)).min(0.0));
+    const TurnKernel any(prices, (costs - ds * size_).min(0.0));
+    for (int level = 0; level < kLevels; ++level)
+      kernels_.emplace_back(prices, (costs - ds * size_ * (2.0 * level / kLevels - 1)).min(0.0), any.reach());
+    kernels_.push_back(any);
     for (int i = 0; i < kHeadings; ++i)
       at(most_along_, i) =
           bump + std::max({at(along_, around(i - 1)), at(along_, i), at(along_, around(i + 1))});
@@ -307,37 +313,34 @@ class HeadingProgram {
     const double half_m = 0.5 * stages_[k].length_m, bump = size_ * kCell * kCell / 8;
     std::array<double, kHeadings> before;
     for (int i = 0; i < kHeadings; ++i) at(before, i) = at(w_, i) - half_m * (at(along_, i) + bump);
-    const int reach = reach_;
+    const int reach = kernels_.back().reach();
     for (int b = 0; b < kHeadings; ++b) {
       double best = kNoLimit;
-      int from = 0;
       for (int d = -reach; d <= reach; ++d) {
-        const int a = around(b - d), middle = 2 * b - d;
-        const TurnKernel& kernel = kernels_[at(level_of_, middle < 0                ? middle + 2 * kHeadings
-                                                          : middle >= 2 * kHeadings ? middle - 2 * kHeadings
-                                                                                    : middle)];
-        if (const double value = at(before, a) + kernel(d); value < best) best = value, from = a;
+        const int a = around(b - d), middle = (2 * b - d + 2 * kHeadings) % (2 * kHeadings);
+        const double value = at(before, a) + kernels_[at(level_of_, middle)](d);
+        if (value < best) best = value, at_from(k, b) = a;
       }
-      at(w_, b) = best - half_m * (at(along_, b) + bump);
-      at_from(k, b) = from;
+      at(w_, b) = best;
     }
+    turn_further(before, w_);
+    for (int b = 0; b < kHeadings; ++b) at(w_, b) -= half_m * (at(along_, b) + bump);
   }
 
   /// The stage or any part of it.
   void choose(std::size_t k) {
     const std::array<double, kHeadings> before = w_;
-    const int reach = reach_;
+    const int reach = kernels_.back().reach();
     for (int b = 0; b < kHeadings; ++b) {
-      double best = at(before, b);
-      int from = kSkipped;
+      at_from(k, b) = kSkipped;
       for (int d = -reach; d <= reach; ++d) {
         const int a = around(b - d);
         const TurnKernel& kernel = kernels_[level_above(0.5 * (at(most_along_, a) + at(most_along_, b)))];
-        if (const double value = at(before, a) + kernel(d); value < best) best = value, from = a;
+        if (const double value = at(before, a) + kernel(d); value < at(w_, b))
+          at(w_, b) = value, at_from(k, b) = a;
       }
-      at(w_, b) = best;
-      at_from(k, b) = from;
     }
+    turn_further(before, w_);
   }
 
   std::vector<HeadingStage> stages_{};
@@ -348,7 +351,6 @@ class HeadingProgram {
   std::array<double, kHeadings> along_{};  ///< lambda along the motion
   std::array<bool, kHeadings> forward_{};
   std::vector<TurnKernel> kernels_{};  ///< of the present stage, by the slope or the size of the price
-  int reach_{};                        ///< of the kernels
   std::array<std::size_t, 2 * kHeadings> level_of_{};  ///< whole stages: at half cells
   std::array<double, kHeadings> most_along_{};         ///< optional stages
   std::array<double, kHeadings> w_{};

@@ -55,7 +55,8 @@ constexpr const char* kPathBoundMeans =
     "no path of any kind from stop to stop takes less in this time; null where it is not covered";
 constexpr const char* kPathGapMeans = "to that bound, relative to the energy";
 constexpr const char* kPathPartMeans =
-    "line | headings | corners: what the bound rests on; corners: it takes the way around them as straight";
+    "line | headings | corners: what the bound rests on; headings: those at the ends raise it; corners: it takes "
+    "the way around them as straight";
 constexpr const char* kPathReasonMeans = "reason why that bound is null";
 
 Schema leg_result_schema() {
