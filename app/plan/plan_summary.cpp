@@ -70,6 +70,11 @@ std::string optimality_text(const Plan& plan) {
 /// The gap to any path, or why none is known.
 void print_path_bound(std::ostream& stream, const Plan& plan) {
   if (!plan.path_bound) return;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    if (const LegPlan& leg = plan.legs[k]; far_above_bound(leg))
+      stream << "note: leg " << k << " lies "
+             << figure(path_gap_percent(*leg.path_bound, leg.energy.total_J()), 3)
+             << " % above the bound over all paths: try another --seed or a stop on the way\n";
   const PathBound& bound = *plan.path_bound;
   if (!bound.energy_J) {
     stream << "no bound over all paths: " << bound.reason << "\n";

@@ -84,6 +84,12 @@ double path_gap_percent(const PathBound& bound, double energy_J) {
   return gap_percent(energy_J, bound.energy_J.value_or(std::nan("")));
 }
 
+bool far_above_bound(const LegPlan& leg) {
+  constexpr double kFar_percent = 15;
+  return leg.path_bound && leg.path_bound->energy_J && leg.path_bound->part != PathBound::Part::corners &&
+         path_gap_percent(*leg.path_bound, leg.energy.total_J()) > kFar_percent;
+}
+
 namespace {
 
 /// Adds the two trapezoids to the stretches of a leg, in the plan's times, and their totals to the leg.

@@ -23,6 +23,9 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy);
 /// How far (%) a plan of an energy lies above the bound over all paths at most, relative to its energy.
 [[nodiscard]] double path_gap_percent(const PathBound& bound, double energy_J);
 
+/// Whether a leg lies so far above its bound, with no corner to explain it, that a better path is likely.
+[[nodiscard]] bool far_above_bound(const LegPlan& leg);
+
 /// Saving (%) of `energy_J` against a baseline's; 0 if the baseline takes no energy.
 [[nodiscard]] double saving_percent(double energy_J, double baseline_J);
 

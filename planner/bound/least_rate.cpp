@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <stdexcept>
 
 #include "planner/nlp/interval/range.hpp"
 
@@ -338,6 +339,7 @@ double turning_price(const PowerForm& form, const TurnCredit& credit, double tim
 
 std::vector<double> least_rates(const PowerForm& form, const MotionPrice& price,
                                 const std::vector<double>& per_rad_J, double tolerance) {
+  if (per_rad_J.size() > kMostHeadingPrices) throw std::invalid_argument("least_rates: too many prices");
   return RateSearch(form, price, per_rad_J, tolerance).find();
 }
 

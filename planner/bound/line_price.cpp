@@ -265,7 +265,6 @@ LineBound line_bound(const PowerForm& form, double length_m, double time_W) {
   bound.per_m_J = per_m_J;
   for (std::size_t k = 0; k < credits.size(); ++k)
     bound.energy_J += piece_J(form, line, k, credits[k], time_W);
-  bound.energy_J = std::max(0.0, bound.energy_J);
   return bound;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "planner/bound/least_rate.hpp"
@@ -38,7 +39,7 @@ struct LineBound {
   double length_m{};
   double energy_J{};  ///< price of time included
   double per_m_J{};   ///< of each further meter, >= 0
-  double at(double way_m) const { return energy_J + per_m_J * (way_m - length_m); }
+  double at(double way_m) const { return std::max(0.0, energy_J + per_m_J * (way_m - length_m)); }
 };
 [[nodiscard]] LineBound line_bound(const PowerForm& form, double length_m, double time_W);
 

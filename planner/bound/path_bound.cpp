@@ -35,7 +35,9 @@ std::vector<std::optional<double>> named_headings(const MissionRequest& mission,
   if (mission.start.heading_given) headings[0] = mission.start.pose.heading_rad;
   for (const LegPlan& leg : plan.legs) {
     const auto station = mission.stations.find(leg.to);
-    headings.push_back(station == mission.stations.end() ? std::nullopt : station->second.heading_rad);
+    const bool is_searched = !leg.prescribed && leg.path_source != "bezier" && leg.path_source != "given";
+    headings.push_back(is_searched && station != mission.stations.end() ? station->second.heading_rad
+                                                                        : std::nullopt);
   }
   return headings;
 }
@@ -116,23 +118,20 @@ const RateTable& LegBounds::rates(const LegEnds& leg, double time_W, double leng
 /// Ways are at least `way_m` long. Each line counts up to the length of the next: the last one without an
 /// end, which is where a straight line takes more than is known to be enough.
 double LegBounds::with_headings_J(const LegEnds& leg, double time_W, double way_m, double line_J) {
-  const double long_m = long_line_m(form(leg.payload_kg), time_W);
-  int shorter = 0;
-  while (long_m * std::pow(kLengthRatio, -shorter) > way_m) ++shorter;
+  std::vector<double> lengths_m{long_line_m(form(leg.payload_kg), time_W)};
+  while (lengths_m.back() > way_m) lengths_m.push_back(lengths_m.back() / kLengthRatio);
   const HeadingEnds ends{
       {leg.goal_m[0] - leg.start_m[0], leg.goal_m[1] - leg.start_m[1]}, leg.start_rad, leg.goal_rad};
   double bound_J = leg.cost_at_most_J, from_m = way_m, straight_J = line_J;
-  for (; straight_J < bound_J; --shorter) {
-    const double length_m = long_m * std::pow(kLengthRatio, -shorter);
-    const LineBound& straight = line(leg.payload_kg, time_W, length_m);
+  for (std::size_t k = lengths_m.size(); k-- > 0 && straight_J < bound_J;) {
+    const LineBound& straight = line(leg.payload_kg, time_W, lengths_m[k]);
     if (!(straight.per_m_J > 0)) return line_J;
     const double to_m =
-        shorter > 0 ? length_m * kLengthRatio : from_m + (bound_J - straight_J) / straight.per_m_J;
-    const double found_J = heading_bound(rates(leg, time_W, length_m), ends, from_m, to_m, bound_J);
+        k > 0 ? lengths_m[k - 1] : from_m + std::max(0.0, bound_J - straight.at(from_m)) / straight.per_m_J;
+    const double found_J = heading_bound(rates(leg, time_W, lengths_m[k]), ends, from_m, to_m, bound_J);
     bound_J = std::min(bound_J, std::max(found_J, straight_J));
-    if (shorter == 0) break;
     from_m = to_m;
-    straight_J = std::max(straight_J, line(leg.payload_kg, time_W, to_m).at(to_m));
+    straight_J = std::max(straight_J, line(leg.payload_kg, time_W, lengths_m[k > 0 ? k - 1 : 0]).at(to_m));
   }
   return bound_J;
 }

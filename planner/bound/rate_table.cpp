@@ -14,6 +14,14 @@ constexpr double kTypicalPrice = 0.5;      ///< of the price at which turning in
 constexpr double kWidest = 0.97;           ///< of that price
 constexpr double kNarrower = 0.85;
 constexpr double kNarrowest = 0.2;
+constexpr double kPriceRounding = 1e-9;
+
+/// The same on a narrower range of prices.
+HeadingRates narrowed(const HeadingRates& rates, double most_J) {
+  if (most_J >= rates.most_J) return rates;
+  const Eigen::ArrayXd prices = Eigen::ArrayXd::LinSpaced(rates.at.size(), -most_J, most_J);
+  return {most_J, prices.unaryExpr([&](double price) { return rates(price); })};
+}
 
 /// Rates of motions at prices of a radian of heading. Where a price has no certified bound the prices of that
 /// credit move together.
@@ -47,6 +55,7 @@ class RateSamples {
 }  // namespace
 
 double HeadingRates::operator()(double per_rad_J) const {
+  if (std::abs(per_rad_J) > most_J * (1 + kPriceRounding)) return -kNoLimit;
   const double place = (per_rad_J + most_J) / step_J();
   const Eigen::Index k = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(place), 0, at.size() - 2);
   const double share = std::clamp(place - static_cast<double>(k), 0.0, 1.0);
@@ -65,13 +74,15 @@ RateTable rate_table(const PowerForm& form, double length_m, double time_W, bool
   table.middle = rates.at({.p = table.line.p[peak]}, credits[peak], kRateTolerance);
   for (std::size_t k = 0; k < credits.size(); ++k) {
     const double ds = table.line.s_m[k + 1] - table.line.s_m[k];
-    if (!(ds > 0)) {
+    if (!(ds > 0) || k == peak) {
       table.pieces.push_back({table.middle, table.middle});
       continue;
     }
     const double tolerance = std::max(kRateTolerance, kRateTolerance_J / ds);
-    table.pieces.push_back({rates.at(price_on(table.line, k, false, form), credits[k], tolerance),
-                            rates.at(price_on(table.line, k, true, form), credits[k], tolerance)});
+    const HeadingRates from = rates.at(price_on(table.line, k, false, form), credits[k], tolerance),
+                       to = rates.at(price_on(table.line, k, true, form), credits[k], tolerance);
+    const double most_J = std::min(from.most_J, to.most_J);
+    table.pieces.push_back({narrowed(from, most_J), narrowed(to, most_J)});
   }
   const auto bounded = [](const HeadingRates& at) { return at.at.isFinite().all(); };
   table.bounded = bounded(table.middle) &&

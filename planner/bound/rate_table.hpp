@@ -20,8 +20,8 @@ struct HeadingRates {
   double operator()(double per_rad_J) const;
 };
 
-/// What each meter of a line takes at least, certified, at both ends of its pieces; between them the rate is
-/// concave. A further meter at the peak of speed takes `middle`.
+/// What each meter of a line takes at least, certified, at both ends of its pieces, at the same prices;
+/// between them the rate is concave. The piece at the peak of speed and each further meter take `middle`.
 struct RateTable {
   LinePrice line{};
   std::vector<std::array<HeadingRates, 2>> pieces{};

@@ -52,10 +52,13 @@ constexpr const char* kWithoutJerk =
     "the bound, drafts and the choice of ways leave the jerk limit out: the gap holds its price, too";
 
 constexpr const char* kPathBoundMeans =
-    "no path of any kind from stop to stop takes less in this time; null where it is not covered";
+    "no path of any kind from stop to stop takes less in this time, driving backward only where the robot "
+    "states a "
+    "speed for it; null where it is not covered";
 constexpr const char* kPathGapMeans = "to that bound, relative to the energy";
 constexpr const char* kPathPartMeans =
-    "line | headings | corners: what the bound rests on; headings: those at the ends raise it; corners: it takes "
+    "line | headings | corners: what the bound rests on; headings: those at the ends raise it; corners: it "
+    "takes "
     "the way around them as straight";
 constexpr const char* kPathReasonMeans = "reason why that bound is null";
 

@@ -173,7 +173,7 @@ jp.confidence_section = function (plan) {
 
 /** What each gap means, for readers who know neither. */
 jp.gap_texts = function (plan) {
-  const texts = [];
+  const texts = (plan.legs || []).flatMap((leg, k) => leg.path_gap_percent > 15 && leg.path_bound_part !== "corners" ? [`Leg ${jp.leg_name(leg, k)} lies ${percent(leg.path_gap_percent, 3)} above the bound over all paths, with no corner to explain it: another seed or a stop on the way may be cheaper.`] : []);
   if (is_number(plan.optimality_gap_percent)) texts.push("The gap on these paths is how much energy a better speed profile on the same paths could save at most.");
   if (is_number(plan.path_gap_percent)) texts.push("The gap to any path is how much energy any other paths between the same stops, driven at any speeds in this time, could save at most; what can really be saved is usually far less." + (plan.path_bound_part === "corners" ? " It counts the shortest ways around obstacles as if they were straight, so part of it is the price of corners." : plan.path_bound_part === "headings" ? " It knows the headings at the stops, but not that the yaw rate takes time to change." : ""));
   return texts;
