@@ -77,7 +77,7 @@ def test_a_known_cost_loses_no_schedule_that_is_as_cheap(seed):
     _, found = search(problem, workers=1)
     assert found is not None
     limits = Limits(problem, found.cost)
-    sets = sets_of(problem, found.cost, limits)
+    sets = sets_of(problem, found.cost)
     assert bound(problem) <= sets.bound <= found.cost
     for r, route in enumerate(found.routes):
         assert sum(1 << step.mission for step in route) in sets.costs[r]
