@@ -9,6 +9,7 @@ used more or has paid more than the route that it stands for.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -32,6 +33,7 @@ class Sets:
 
     costs: tuple[dict[int, int], ...]
     bound: int  #: of the cost of all robots; dearer than asked: there is no division
+    least: tuple[Array, ...]  #: of each robot: what each set of missions costs it at least
     routes: tuple[tuple[Leg, ...], ...] = ()  #: of the cheapest division
 
 
@@ -54,28 +56,33 @@ class _Labels:
         return _Labels(*(getattr(self, name)[where] for name in self.__dataclass_fields__))
 
 
-def sets_of(problem: Problem, most: int) -> Sets | None:
-    """None for more than ``MOST_MISSIONS`` missions, or too many labels."""
+def sets_of(problem: Problem, most: int, before: Sequence[Array] | None = None) -> Sets | None:
+    """None for more than ``MOST_MISSIONS`` missions, or too many labels. ``before``: ``least`` of a search below a lower cost."""
     if len(problem.missions) > MOST_MISSIONS:
         return None
-    steps = [_untimed(problem, r) for r in range(len(problem.robots))]
-    nothing = np.full(1 << len(problem.missions), FAR, dtype=np.int64)
-    nothing[0] = 0
-    costs = [np.minimum(_onward(step, nothing)[0], FAR) for step in steps]  # first without times and batteries
-    done: dict[Any, _Robot] = {}
-    for r, step in enumerate(steps):
+    costs = list(before or _untimed_costs(problem))
+    least, done = list(costs), {}  # type: list[Array], dict[Any, tuple[_Robot, Array]]
+    for r in range(len(problem.robots)):
         key = problem.likeness(r)
         if key not in done:
-            others = _together([x for k, x in enumerate(costs) if k != r], len(nothing))
-            done[key] = _Robot(problem, r, most, _onward(step, others))
-            if not done[key].drive():
+            others = _together([x for k, x in enumerate(costs) if k != r], 1 << len(problem.missions))
+            done[key] = _Robot(problem, r, most, _onward(_untimed(problem, r), others)), others
+            if not done[key][0].drive():
                 return None
-        costs[r] = done[key].costs
-    sets = _surviving(costs, most)
+        costs[r] = done[key][0].costs
+        least[r] = np.where(costs[r] < FAR, costs[r], np.maximum(least[r], most + 1 - done[key][1][::-1]))  # of the missions that are left
+    sets = _surviving(costs, least, most)
     if sets.bound > most:
         return sets
     divided = zip(range(len(costs)), _divided(costs))
-    return replace(sets, routes=tuple(done[problem.likeness(r)].route(mask) for r, mask in divided))
+    return replace(sets, routes=tuple(done[problem.likeness(r)][0].route(mask) for r, mask in divided))
+
+
+def _untimed_costs(problem: Problem) -> list[Array]:
+    """Of each robot: what each set of missions costs it at least, without times and batteries."""
+    nothing = np.full(1 << len(problem.missions), FAR, dtype=np.int64)
+    nothing[0] = 0
+    return [np.minimum(_onward(_untimed(problem, r), nothing)[0], FAR) for r in range(len(problem.robots))]
 
 
 def _divided(costs: list[Array]) -> list[int]:
@@ -91,11 +98,8 @@ def _divided(costs: list[Array]) -> list[int]:
 
 def untimed_bound(problem: Problem) -> int:
     """The least cost without times, batteries and queues; 0 for more than ``MOST_MISSIONS`` missions."""
-    if len(problem.missions) > MOST_MISSIONS:
-        return 0
-    nothing = np.full(1 << len(problem.missions), FAR, dtype=np.int64)
-    nothing[0] = 0
-    return int(_together([_onward(_untimed(problem, r), nothing)[0] for r in range(len(problem.robots))], len(nothing))[-1])
+    small = len(problem.missions) <= MOST_MISSIONS
+    return int(_together(_untimed_costs(problem), 1 << len(problem.missions))[-1]) if small else 0
 
 
 def _untimed(problem: Problem, r: int) -> Array:
@@ -161,7 +165,7 @@ class _Robot:
         self.costs[0] = 0
         zero = np.zeros(1, dtype=np.int64)
         self.layers = [_Labels(zero, zero, zero, zero + self.robot.from_s, zero, zero + self.robot.use_price, zero,
-                               np.zeros((1, len(self.prices)), dtype=np.int64), zero, zero)]
+                               np.zeros((1, len(self.prices)), dtype=np.int32), zero, zero)]
         while True:
             labels = self.layers[-1]
             parts = [self._extended(labels, np.flatnonzero((labels.mask >> m & 1) == 0), m) for m in self.steps]
@@ -202,14 +206,16 @@ class _Robot:
         before, paid, end = labels.end[row], labels.paid[row] + motion[row, choice], start + own_s
         power = np.maximum(labels.power[row], visit)
         wait = np.where(power > 0, labels.wait[row] + start - before - way_s, 0)
-        slack = np.where((visit > 0)[:, None], FREE, labels.slack[row])
+        slack = np.where((visit > 0)[:, None], np.int32(FREE), labels.slack[row])
         used = labels.used[row] + upper[row, choice] + standby * (end - before)
         short, per_s = np.maximum(0, used - self.held), np.maximum(power, 1)
         within_s = np.minimum(wait, -(-short // (per_s + standby)))
         beyond_s = -(-np.maximum(0, short - (per_s + standby) * within_s) // per_s)
         longer_s, end = within_s + beyond_s, end + beyond_s
-        paid = paid + np.maximum(0, longer_s[:, None] - slack) @ self.prices + mission.late_price * np.maximum(0, end - mission.due_s)
-        slack = np.maximum(0, slack - longer_s[:, None])
+        longer = np.flatnonzero(longer_s)
+        paid[longer] += np.maximum(0, longer_s[longer, None] - slack[longer]) @ self.prices
+        paid = paid + mission.late_price * np.maximum(0, end - mission.due_s)
+        slack = np.maximum(0, slack - longer_s[:, None].astype(np.int32))
         slack[:, m] = np.where(power > 0, wait - within_s + np.maximum(0, mission.due_s - end), 0)
         kept = (end <= self.robot.to_s) & ((short == 0) | (power > 0))
         kept &= paid + standby * (end - self.robot.from_s) + self._left(labels.mask[row], m) <= self.most
@@ -238,19 +244,19 @@ def _undominated(labels: _Labels, standby: int) -> _Labels:
     energy = labels.used - standby * labels.end
     order = np.lexsort((-labels.power, energy, labels.end, labels.paid, labels.node, labels.mask))
     group = ((labels.mask << 5) + labels.node)[order]  # nodes are fewer than 32
-    values = np.stack([labels.paid, labels.end, energy, -labels.power, labels.end - labels.wait, *-labels.slack.T])[:, order]
+    values = [x[order] for x in (labels.paid, labels.end, energy, -labels.power, labels.end - labels.wait, *-labels.slack.T)]
     kept = _cheaper_than_the_best(group, values)
     for lags in (4, 32, len(order)):  # the first that can beat a label are beside it
-        kept = kept[_lagged(group[kept], values[:, kept], lags)]
+        kept = kept[_lagged(group[kept], [x[kept] for x in values], lags)]
     return labels.pick(order[kept])
 
 
-def _cheaper_than_the_best(group: Array, values: Array) -> Array:
+def _cheaper_than_the_best(group: Array, values: Sequence[Array]) -> Array:
     """Without labels that the best of their group by some weights beat."""
     begins = np.flatnonzero(np.diff(group, prepend=-1))
     number, kept = np.cumsum(np.diff(group, prepend=-1) != 0) - 1, np.ones(len(group), dtype=bool)
     for weights in WEIGHTS:
-        score = np.tensordot(weights, values[:len(weights)], 1)
+        score = sum(weight * row for weight, row in zip(weights, values))
         best = np.flatnonzero(score == np.minimum.reduceat(score, begins)[number])
         champion = best[np.flatnonzero(np.diff(number[best], prepend=-1))][number]
         beaten = np.flatnonzero(kept & (champion != np.arange(len(group))))
@@ -258,7 +264,7 @@ def _cheaper_than_the_best(group: Array, values: Array) -> Array:
     return np.flatnonzero(kept)
 
 
-def _beaten(values: Array, better: Array, worse: Array) -> Array:
+def _beaten(values: Sequence[Array], better: Array, worse: Array) -> Array:
     """The worse of pairs, where it is beaten in all values."""
     for row in values:
         pairs = np.flatnonzero(row[better] <= row[worse])
@@ -266,7 +272,7 @@ def _beaten(values: Array, better: Array, worse: Array) -> Array:
     return worse
 
 
-def _lagged(group: Array, values: Array, lags: int) -> Array:
+def _lagged(group: Array, values: Sequence[Array], lags: int) -> Array:
     """Which labels none of so many before them beats; sorted labels are beaten by earlier ones alone, which are no dearer."""
     begins = np.diff(group, prepend=-1) != 0
     place = np.arange(len(group)) - np.flatnonzero(begins)[np.cumsum(begins) - 1]
@@ -280,7 +286,7 @@ def _lagged(group: Array, values: Array, lags: int) -> Array:
     return kept
 
 
-def _surviving(costs: list[Array], most: int) -> Sets:
+def _surviving(costs: list[Array], least: list[Array], most: int) -> Sets:
     """Sets with which the cheapest sets of all other robots complete a schedule that is not too dear."""
     everything = len(costs[0]) - 1
     kept, bound = [], FAR
@@ -290,7 +296,7 @@ def _surviving(costs: list[Array], most: int) -> Sets:
         totals = mine[masks] + others[everything ^ masks]
         bound = min(bound, int(totals.min(initial=FAR)))
         kept.append({int(mask): int(mine[mask]) for mask in masks[totals <= most]})
-    return Sets(tuple(kept), bound)
+    return Sets(tuple(kept), bound, tuple(least))
 
 
 def _together(costs: list[Array], size: int) -> Array:

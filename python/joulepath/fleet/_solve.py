@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from ._model import FleetModel
 from ._problem import NEVER, Problem, Schedule, Step, Visit
 from ._routes import account
 
-NEARER = 0.02  #: share of a bound by which the next cost is higher, below which sets are looked for
+NEARER, WIDER = 0.01, 0.03  #: share of a bound by which the next cost is higher, before a division of all missions is known and after it
 TIMING = 1.0  #: deterministic time for the times of known routes
 
 
@@ -83,25 +83,24 @@ class _Progress(cp_model.CpSolverSolutionCallback):
             self.stop_search()
 
 
-def _narrowed(problem: Problem, start: Schedule, seed: int) -> tuple[Schedule, Sets | None, int]:
+def _narrowed(problem: Problem, start: Schedule, seed: int, stop: Callable[[], bool]) -> tuple[Schedule, Sets | None, int]:
     """The start or a cheaper schedule; sets of missions of schedules that are no dearer, None: too many to tell; and a bound.
 
     Sets are looked for below costs that rise from a bound: the first ones make a schedule whose queues alone can make it dearer.
     """
     low = untimed_bound(problem)
     most, division, sets = low, start.cost, None  # type: int, int, Sets | None
-    while low < start.cost and most < start.cost:
+    while low < start.cost and most < start.cost and not stop():
+        most = min(division, math.ceil(low * (1 + (NEARER if division == start.cost else WIDER))))
         if sets and sets.routes:
             most = start.cost
-        else:  # at once where a division is known that is not much dearer
-            most = min(division, math.ceil(low * (1 + (2 if division <= low * (1 + 2 * NEARER) else 1) * NEARER)))
-        sets = sets_of(problem, most)
+        sets = sets_of(problem, most, sets.least if sets else None)
         if sets is None:
             return start, None, low
         low, division = max(low, min(sets.bound, most + 1)), min(division, sets.bound)
         better = _timed(problem, sets.routes, seed) if sets.routes else None
         start = better if better is not None and better.cost < start.cost else start
-    return start, sets, low
+    return start, sets if most >= start.cost else None, low
 
 
 def _timed(problem: Problem, routes: Sequence[Sequence[Leg]], seed: int) -> Schedule | None:
@@ -128,7 +127,7 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     """
     sets, low = None, 0
     if start is not None:
-        start, sets, low = _narrowed(problem, start, seed)
+        start, sets, low = _narrowed(problem, start, seed, stop or (lambda: False))
         if low >= start.cost:
             return "optimal", replace(start, bound=start.cost, proven=True)
     fleet = FleetModel(problem, None if start is None else start.cost, sets)
