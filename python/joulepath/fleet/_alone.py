@@ -1,9 +1,9 @@
 """Each robot alone, as if no other one used the chargers: what each set of missions costs it at least, and which sets the robots
 of a schedule can have that costs no more than a known one. For few missions: the sets are enumerated.
 
-Labels are extended by one mission at a time (set, last mission, end, energy used, paid). A charge counts when a battery lacks it,
-not before, and takes the time of constant power; time that a robot waits after a visit charges, too. So no label ends later, has
-used more or has paid more than the route that it stands for.
+Labels are extended by one mission at a time (set, last mission, end, energy used, paid). A charge grows, in whole seconds, when a
+battery lacks it, and delays the missions since, as far as no wait takes that up. It has constant power and no end; the fastest of
+several chargers counts. So no label ends later, has used more or has paid more than the route that it stands for.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from ._bound import FAR, drive_cost, late_cost, way_cost
 from ._problem import Problem
 
 MOST_MISSIONS = 14
-MOST_LABELS = 120_000  #: of one robot and one number of missions
+MOST_LABELS = 300_000
 WEIGHTS = ((1, 100, 0.1), (1, 100, 1), (1, 1000, 0.1), (10, 100, 0.1), (0.1, 10, 1))  #: of price, end and energy
-FREE = 10**6  #: s, no limit
+FREE = 10**9  #: s, no limit
 Array = Any
 Choice = tuple[int, int, int, int, int, int, int, int, int]
 Leg = tuple[int, int, int, int]  #: mission, way, speed, charger or -1
@@ -34,6 +34,7 @@ class Sets:
     costs: tuple[dict[int, int], ...]
     bound: int  #: of the cost of all robots; dearer than asked: there is no division
     least: tuple[Array, ...]  #: of each robot: what each set of missions costs it at least
+    labels: int  #: that were left
     routes: tuple[tuple[Leg, ...], ...] = ()  #: of the cheapest division
 
 
@@ -56,8 +57,8 @@ class _Labels:
         return _Labels(*(getattr(self, name)[where] for name in self.__dataclass_fields__))
 
 
-def sets_of(problem: Problem, most: int, before: Sequence[Array] | None = None) -> Sets | None:
-    """None for more than ``MOST_MISSIONS`` missions, or too many labels. ``before``: ``least`` of a search below a lower cost."""
+def sets_of(problem: Problem, most: int, before: Sequence[Array] | None = None, labels: int = MOST_LABELS) -> Sets | None:
+    """None for more than ``MOST_MISSIONS`` missions, or more labels. ``before``: ``least`` of a search below a lower cost."""
     if len(problem.missions) > MOST_MISSIONS:
         return None
     costs = list(before or _untimed_costs(problem))
@@ -67,11 +68,13 @@ def sets_of(problem: Problem, most: int, before: Sequence[Array] | None = None) 
         if key not in done:
             others = _together([x for k, x in enumerate(costs) if k != r], 1 << len(problem.missions))
             done[key] = _Robot(problem, r, most, _onward(_untimed(problem, r), others)), others
-            if not done[key][0].drive():
+            left = done[key][0].drive(labels)
+            if left < 0:
                 return None
+            labels = left
         costs[r] = done[key][0].costs
         least[r] = np.where(costs[r] < FAR, costs[r], np.maximum(least[r], most + 1 - done[key][1][::-1]))  # of the missions that are left
-    sets = _surviving(costs, least, most)
+    sets = _surviving(costs, least, most, labels)
     if sets.bound > most:
         return sets
     divided = zip(range(len(costs)), _divided(costs))
@@ -159,8 +162,9 @@ class _Robot:
         padded = [row + [(0, 0, FAR, 0, 0, 0, 0, 0, 0)] * (longest - len(row)) for row in rows]
         return np.moveaxis(np.array(padded, dtype=np.int64), 2, 0)
 
-    def drive(self) -> bool:
-        """Finds ``costs``, the least of each set of missions; ``FAR``: dearer than the known schedule. False: too many labels."""
+    def drive(self, most_labels: int) -> int:
+        """Finds ``costs``, the least of each set of missions; ``FAR``: dearer than the known schedule. Returns how many labels are
+        left; negative: too many."""
         self.costs = np.full(self.rest.shape[1], FAR, dtype=np.int64)
         self.costs[0] = 0
         zero = np.zeros(1, dtype=np.int64)
@@ -170,11 +174,12 @@ class _Robot:
             labels = self.layers[-1]
             parts = [self._extended(labels, np.flatnonzero((labels.mask >> m & 1) == 0), m) for m in self.steps]
             if not sum(len(x.mask) for x in parts):
-                return True
+                return most_labels
             labels = _undominated(_Labels(*(np.concatenate([getattr(x, name) for x in parts]) for name in labels.__dataclass_fields__)),
                                   self.kind.standby)
-            if len(labels.mask) > MOST_LABELS:
-                return False
+            most_labels -= len(labels.mask)
+            if most_labels < 0:
+                return most_labels
             np.minimum.at(self.costs, labels.mask, self._total(labels))
             self.layers.append(labels)
 
@@ -182,7 +187,8 @@ class _Robot:
         """The cheapest route of a set."""
         legs: list[Leg] = []
         size = mask.bit_count()
-        index = int(np.flatnonzero((self.layers[size].mask == mask) & (self._total(self.layers[size]) == self.costs[mask]))[0]) if size else 0
+        last = self.layers[size]
+        index = int(np.flatnonzero((last.mask == mask) & (self._total(last) == (self.costs[mask] if size else self.robot.use_price)))[0])
         for n in range(size, 0, -1):
             node, parent, choice = (int(getattr(self.layers[n], name)[index]) for name in ("node", "parent", "choice"))
             way, speed, charger = (int(x) for x in self.steps[node - 1][6:, int(self.layers[n - 1].node[parent]), choice])
@@ -221,7 +227,8 @@ class _Robot:
         kept &= paid + standby * (end - self.robot.from_s) + self._left(labels.mask[row], m) <= self.most
         used = used - (per_s + standby) * within_s - per_s * beyond_s
         node = np.full(len(row), m + 1, dtype=np.int64)
-        return _Labels(*(x[kept] for x in (labels.mask[row] | 1 << m, node, power, end, used, paid, wait - within_s, slack, these[row], choice)))
+        values = labels.mask[row] | 1 << m, node, power, end, used, paid, wait - within_s, slack, these[row], choice
+        return _Labels(*(x[kept] for x in values))
 
     def _left(self, masks: Array, m: int) -> Array:
         """What is left costs at least, after one mission more."""
@@ -286,7 +293,7 @@ def _lagged(group: Array, values: Sequence[Array], lags: int) -> Array:
     return kept
 
 
-def _surviving(costs: list[Array], least: list[Array], most: int) -> Sets:
+def _surviving(costs: list[Array], least: list[Array], most: int, labels: int) -> Sets:
     """Sets with which the cheapest sets of all other robots complete a schedule that is not too dear."""
     everything = len(costs[0]) - 1
     kept, bound = [], FAR
@@ -296,7 +303,7 @@ def _surviving(costs: list[Array], least: list[Array], most: int) -> Sets:
         totals = mine[masks] + others[everything ^ masks]
         bound = min(bound, int(totals.min(initial=FAR)))
         kept.append({int(mask): int(mine[mask]) for mask in masks[totals <= most]})
-    return Sets(tuple(kept), bound, tuple(least))
+    return Sets(tuple(kept), bound, tuple(least), labels)
 
 
 def _together(costs: list[Array], size: int) -> Array:

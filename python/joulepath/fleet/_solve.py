@@ -14,7 +14,8 @@ from ._model import FleetModel
 from ._problem import NEVER, Problem, Schedule, Step, Visit
 from ._routes import account
 
-NEARER, WIDER = 0.01, 0.03  #: share of a bound by which the next cost is higher, before a division of all missions is known and after it
+NEARER = 0.01  #: share of a bound by which the next cost is higher, below which sets are looked for
+LABELS_PER_S = 40_000  #: of the limit
 TIMING = 1.0  #: deterministic time for the times of known routes
 
 
@@ -83,7 +84,7 @@ class _Progress(cp_model.CpSolverSolutionCallback):
             self.stop_search()
 
 
-def _narrowed(problem: Problem, start: Schedule, seed: int, stop: Callable[[], bool]) -> tuple[Schedule, Sets | None, int]:
+def _narrowed(problem: Problem, start: Schedule, seed: int, labels: int, stop: Callable[[], bool]) -> tuple[Schedule, Sets | None, int]:
     """The start or a cheaper schedule; sets of missions of schedules that are no dearer, None: too many to tell; and a bound.
 
     Sets are looked for below costs that rise from a bound: the first ones make a schedule whose queues alone can make it dearer.
@@ -91,12 +92,11 @@ def _narrowed(problem: Problem, start: Schedule, seed: int, stop: Callable[[], b
     low = untimed_bound(problem)
     most, division, sets = low, start.cost, None  # type: int, int, Sets | None
     while low < start.cost and most < start.cost and not stop():
-        most = min(division, math.ceil(low * (1 + (NEARER if division == start.cost else WIDER))))
-        if sets and sets.routes:
-            most = start.cost
-        sets = sets_of(problem, most, sets.least if sets else None)
+        most = start.cost if sets and sets.routes else min(division, math.ceil(low * (1 + NEARER)))
+        sets = sets_of(problem, most, sets.least if sets else None, labels)
         if sets is None:
             return start, None, low
+        labels = sets.labels
         low, division = max(low, min(sets.bound, most + 1)), min(division, sets.bound)
         better = _timed(problem, sets.routes, seed) if sets.routes else None
         start = better if better is not None and better.cost < start.cost else start
@@ -127,7 +127,7 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     """
     sets, low = None, 0
     if start is not None:
-        start, sets, low = _narrowed(problem, start, seed, stop or (lambda: False))
+        start, sets, low = _narrowed(problem, start, seed, round(limit * LABELS_PER_S), stop or (lambda: False))
         if low >= start.cost:
             return "optimal", replace(start, bound=start.cost, proven=True)
     fleet = FleetModel(problem, None if start is None else start.cost, sets)
