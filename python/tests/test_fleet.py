@@ -77,7 +77,7 @@ def test_a_known_cost_loses_no_schedule_that_is_as_cheap(seed):
     _, found = search(problem, workers=1)
     assert found is not None
     limits = Limits(problem, found.cost)
-    sets = sets_of(problem, found.cost, limits)
+    sets = sets_of(problem, found.cost)
     assert bound(problem) <= sets.bound <= found.cost
     for r, route in enumerate(found.routes):
         assert sum(1 << step.mission for step in route) in sets.costs[r]
@@ -88,6 +88,30 @@ def test_a_known_cost_loses_no_schedule_that_is_as_cheap(seed):
             assert limits.speed(step.mission, problem.robots[r].type, step.speed)
     again = solve(problem, workers=1, start=found)
     assert again[0] == "optimal" and again[1].cost == found.cost
+
+
+@pytest.mark.parametrize(("made", "seed"), [(generator.tight, seed) for seed in range(8)] + [(generator.small, seed) for seed in range(8)])
+def test_a_robot_alone_costs_what_brute_force_finds(made, seed):
+    """With one robot nobody queues: labels lose only the taper, and what two visits share."""
+    problem = made(seed, robots=1, missions=3, chargers=1)
+    problem = dataclasses.replace(problem, robots=(dataclasses.replace(problem.robots[0], level=80_000),))
+    brute = judge.least_cost(problem)
+    if brute == float("inf"):
+        return
+    found = sets_of(problem, round(brute) + 1)
+    assert found.bound == brute or (found.bound < brute and sum(charger >= 0 for _, _, _, charger in found.routes[0]) > 1)
+    below = sets_of(problem, found.bound - 1)
+    assert below.bound >= found.bound and below.routes == () and below.least[0][-1] <= found.bound
+    again = sets_of(problem, round(brute) + 1, below.least)
+    assert (again.bound, again.routes) == (found.bound, found.routes)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_sets_below_rising_costs_prove_what_the_constraint_program_alone_proves(seed):
+    problem = generator.small(seed, robots=3, missions=4, chargers=1, speeds=1)
+    status, found = search(problem, workers=1)
+    assert status in ("optimal", "infeasible")
+    assert (found.cost if found else None) == least(problem)
 
 
 RELAXED = [(generator.small, seed, SMALL) for seed in range(4)] + [

@@ -19,10 +19,10 @@ def bound(problem: Problem) -> int:
     """Each mission follows one robot's start or one other mission, and each of these has one successor: the cheapest
     assignment of ways, with missions at their cheapest speeds, standby of the time that both take, unavoidable lateness, and
     standby of the time that chargers need for the energy that the batteries lack."""
-    return _cheapest(problem, _prices(problem, _cost, use=True)) + _beside_ways(problem)
+    return _cheapest(problem, _prices(problem, drive_cost, use=True)) + _beside_ways(problem)
 
 
-def _cost(d: Drive, kind: RobotType) -> int:
+def drive_cost(d: Drive, kind: RobotType) -> int:
     return d.motion + kind.standby * d.duration_s
 
 
@@ -37,7 +37,7 @@ def _beside_ways(problem: Problem) -> int:
     least = min(kind.standby for kind in problem.types)
     power = max((c.power - least for c in problem.chargers), default=0)
     charging = least * max(0, need - held) // power if power else 0
-    return _driving(problem, _cost) + charging + sum(_late(problem, m) for m in range(len(problem.missions)))
+    return _driving(problem, drive_cost) + charging + sum(late_cost(problem, m) for m in range(len(problem.missions)))
 
 
 def _driving(problem: Problem, price: Price) -> int:
@@ -53,7 +53,7 @@ def _prices(problem: Problem, price: Price, use: bool) -> dict[Arc, int]:
         for j, mission in enumerate(problem.missions):
             types = {problem.robots[r].type for r in robots if r in mission.robots}
             if types and i != len(problem.robots) + j:
-                prices[i, j] = extra + min(_way(problem, t, place, mission.first, price) for t in types)
+                prices[i, j] = extra + min(way_cost(problem, t, place, mission.first, price) for t in types)
     return prices
 
 
@@ -69,7 +69,7 @@ def _cheapest(problem: Problem, prices: dict[Arc, int], forced: Arc | None = Non
     return int(solver.optimal_cost())
 
 
-def _way(problem: Problem, t: int, a: str, b: str, price: Price) -> int:
+def way_cost(problem: Problem, t: int, a: str, b: str, price: Price) -> int:
     """Direct: by a charger is dearer where ways are no shorter than the direct one; the least of both is taken."""
     kind = problem.types[t]
     direct = min(price(d, kind) for d in problem.ways[t, a, b])
@@ -81,7 +81,7 @@ def _by_charger(problem: Problem, t: int, a: str, c: int, b: str, price: Price) 
     return price(problem.ways[t, a, dock][0], kind) + price(problem.ways[t, dock, b][0], kind)
 
 
-def _late(problem: Problem, m: int) -> int:
+def late_cost(problem: Problem, m: int) -> int:
     """The price of a mission's lateness where a robot stands at its first stop already."""
     mission = problem.missions[m]
     return mission.late_price * max(0, _soonest(problem, m) - mission.due_s)
@@ -101,7 +101,7 @@ class Limits:
 
     def __init__(self, problem: Problem, most: int | None) -> None:
         self.problem, self.most = problem, most
-        self.prices = _prices(problem, _cost, use=True)
+        self.prices = _prices(problem, drive_cost, use=True)
         rest = _beside_ways(problem)
         self.low = rest + _cheapest(problem, self.prices)
         self.forced = {arc: rest + (0 if most is None else _cheapest(problem, self.prices, arc)) for arc in self.prices}
@@ -111,20 +111,14 @@ class Limits:
         if most is not None and standby > 0:
             self.present_s = min(NEVER, max(0, most - motion) // standby)
 
-    def least(self, m: int) -> int:
-        """No schedule drives a mission, the way to it included, for less."""
-        count, drives = len(self.problem.robots), self.problem.missions[m].drives
-        ways = [price - (self.problem.robots[i].use_price if i < count else 0) for (i, j), price in self.prices.items() if j == m]
-        return min(ways) + min(_cost(d, self.problem.types[t]) for t, each in drives.items() for d in each) + _late(self.problem, m)
-
     def allows(self, extra: int) -> bool:
         return self.most is None or self.low + extra <= self.most
 
     def speed(self, m: int, t: int, k: int) -> bool:
         """Whether a mission may have a speed."""
         drives, kind = self.problem.missions[m].drives, self.problem.types[t]
-        cheapest = min(_cost(d, self.problem.types[u]) for u, each in drives.items() for d in each)
-        return self.allows(_cost(drives[t][k], kind) - cheapest)
+        cheapest = min(drive_cost(d, self.problem.types[u]) for u, each in drives.items() for d in each)
+        return self.allows(drive_cost(drives[t][k], kind) - cheapest)
 
     def way(self, arc: Arc, t: int, c: int, k: int) -> bool:
         """Whether a way from a node to a mission may be taken: at a speed, or by a charger, by a robot that may do both."""
@@ -134,7 +128,7 @@ class Limits:
         count = len(p.robots)
         place, extra = (p.robots[i].start, p.robots[i].use_price) if i < count else (p.missions[i - count].last, 0)
         first = p.missions[j].first
-        price = _cost(p.ways[t, place, first][k], p.types[t]) if c < 0 else _by_charger(p, t, place, c, first, _cost)
+        price = drive_cost(p.ways[t, place, first][k], p.types[t]) if c < 0 else _by_charger(p, t, place, c, first, drive_cost)
         return self.forced[arc] + extra + price - self.prices[arc] <= self.most
 
     def latest_end(self, m: int) -> int:

@@ -6,11 +6,13 @@ A visit of a charger belongs to the node after which it happens. Levels of batte
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
 from typing import Any
 
 from ortools.sat.python import cp_model
 
-from ._alone import sets_of
+from ._alone import Leg, Sets
 from ._bound import Limits
 from ._charging import add_chargers
 from ._cuts import add_cuts, add_sets
@@ -29,8 +31,10 @@ class Node:
 class FleetModel:
     """Variables, constraints and cost of a problem."""
 
-    def __init__(self, problem: Problem, most: int | None = None) -> None:
-        """``most``: the cost of a known schedule; dearer ones are left out."""
+    def __init__(self, problem: Problem, most: int | None = None, sets: Sets | None = None,
+                 routes: Sequence[Sequence[Leg]] | None = None) -> None:
+        """``most``: the cost of a known schedule; dearer ones are left out, and so are sets of missions but ``sets``. ``routes``: all but
+        times."""
         self.problem, self.model = problem, cp_model.CpModel()
         self.limits = Limits(problem, most)
         self.horizon = min(problem.horizon_s(), max(x.from_s for x in problem.robots) + self.limits.present_s + 1)
@@ -45,7 +49,12 @@ class FleetModel:
         self.charging: list[Any] = []
         self.arcs: list[tuple[int, int, Any]] = []
         self.taken: dict[tuple[int, int, int, int, int], Any] = {}  # node, mission, type, charger or -1, way -> literal
+        self.only = None if routes is None else {(r if n == 0 else len(self.robots) + route[n - 1][0], leg[0], c, way)
+                                                 for r, route in enumerate(routes) for n, leg in enumerate(route)
+                                                 for way, c in [(leg[1], leg[3])]}
         self._add_missions()
+        for j, _, speed, _ in itertools.chain.from_iterable(routes or ()):
+            self.model.add_exactly_one(v for (_, k), v in self.speed[j].items() if k == speed)
         self._add_robots()
         for node in self.nodes:
             self._add_visit(node)
@@ -56,7 +65,7 @@ class FleetModel:
         add_chargers(self)
         self.model.add_circuit(self.arcs)
         add_cuts(self)
-        sets, self.low = None if most is None else sets_of(problem, most, self.limits), self.limits.low
+        self.low = self.limits.low
         if sets is not None:
             self.low = max(self.low, sets.bound)
             add_sets(self, sets)
@@ -162,7 +171,7 @@ class FleetModel:
 
     def _possible(self, node: Node, j: int, t: int, c: int, k: int) -> bool:
         """Whether a way is cheap enough, and short enough for the latest end of its mission."""
-        if not self.limits.way((node.index, j), t, c, k):
+        if not self.limits.way((node.index, j), t, c, k) or (self.only is not None and (node.index, j, c, k) not in self.only):
             return False
         p, first = self.problem, self.problem.missions[j].first
         before = node.index - len(self.robots)

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 from ortools.sat.python import cp_model
 
+from ._alone import Leg, Sets, sets_of, untimed_bound
 from ._model import FleetModel
 from ._problem import NEVER, Problem, Schedule, Step, Visit
 from ._routes import account
+
+NEARER = 0.01  #: share of a bound by which the next cost is higher, below which sets are looked for
+LABELS_PER_S = 40_000  #: of the limit
+TIMING = 1.0  #: deterministic time for the times of known routes
 
 
 def _in_order(f: FleetModel, schedule: Schedule) -> Schedule:
@@ -77,6 +84,39 @@ class _Progress(cp_model.CpSolverSolutionCallback):
             self.stop_search()
 
 
+def _narrowed(problem: Problem, start: Schedule, seed: int, labels: int, stop: Callable[[], bool]) -> tuple[Schedule, Sets | None, int]:
+    """The start or a cheaper schedule; sets of missions of schedules that are no dearer, None: too many to tell; and a bound.
+
+    Sets are looked for below costs that rise from a bound: the first ones make a schedule whose queues alone can make it dearer.
+    """
+    low = untimed_bound(problem)
+    most, division, sets = low, start.cost, None  # type: int, int, Sets | None
+    while low < start.cost and most < start.cost and not stop():
+        most = start.cost if sets and sets.routes else min(division, math.ceil(low * (1 + NEARER)))
+        sets = sets_of(problem, most, sets.least if sets else None, labels)
+        if sets is None:
+            return start, None, low
+        labels = sets.labels
+        low, division = max(low, min(sets.bound, most + 1)), min(division, sets.bound)
+        better = _timed(problem, sets.routes, seed) if sets.routes else None
+        start = better if better is not None and better.cost < start.cost else start
+    return start, sets if most >= start.cost else None, low
+
+
+def _timed(problem: Problem, routes: Sequence[Sequence[Leg]], seed: int) -> Schedule | None:
+    """The cheapest times of routes."""
+    ordered = list(routes)
+    for group in problem.equals():
+        for r, route in zip(group, sorted((ordered[r] for r in group), key=lambda x: min((leg[0] for leg in x), default=NEVER))):
+            ordered[r] = route
+    fleet, solver = FleetModel(problem, routes=ordered), cp_model.CpSolver()
+    solver.parameters.random_seed, solver.parameters.num_workers, solver.parameters.max_deterministic_time = seed, 1, TIMING
+    if solver.solve(fleet.model) not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
+        return None
+    found = _schedule(fleet, solver)
+    return replace(found, cost=account(problem, found.routes), bound=0)
+
+
 def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 120.0, start: Schedule | None = None,
           tell: Any = None, stop: Any = None, relative_gap: float = 0.0, takes_sigint: bool = True) -> tuple[str, Schedule | None]:
     """The cheapest schedule: ``optimal``, ``feasible``, ``infeasible`` or ``unknown``, and the schedule.
@@ -85,9 +125,15 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     same schedule. ``tell(cost, bound)`` is called for each better schedule; ``stop()`` ends the search; so does SIGINT with
     ``takes_sigint``.
     """
-    fleet = FleetModel(problem, None if start is None else start.cost)
+    sets, low = None, 0
     if start is not None:
-        if fleet.low >= start.cost:
+        start, sets, low = _narrowed(problem, start, seed, round(limit * LABELS_PER_S), stop or (lambda: False))
+        if low >= start.cost:
+            return "optimal", replace(start, bound=start.cost, proven=True)
+    fleet = FleetModel(problem, None if start is None else start.cost, sets)
+    low = max(low, fleet.low)
+    if start is not None:
+        if low >= start.cost:
             return "optimal", replace(start, bound=start.cost, proven=True)
         _hint(fleet, start)
     solver = cp_model.CpSolver()
@@ -101,8 +147,8 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     if status == cp_model.INFEASIBLE:
         return "infeasible", None
     if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        return ("unknown", None) if start is None else ("feasible", replace(start, bound=fleet.low))
+        return ("unknown", None) if start is None else ("feasible", replace(start, bound=low))
     found = _schedule(fleet, solver)
     word = "optimal" if status == cp_model.OPTIMAL else "feasible"
     cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
-    return word, Schedule(found.routes, cost, min(max(found.bound, fleet.low), cost), status == cp_model.OPTIMAL)
+    return word, Schedule(found.routes, cost, min(max(found.bound, low), cost), status == cp_model.OPTIMAL)
