@@ -227,6 +227,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
                     correction.notes,
                     {told_by_energies(dataset, correction)}});
   d.corrected_robot = correction.robot;
+  d.corrected_effects = correction.effects;
   d.corrected_instruments = correction.instruments;
   d.refused_correction = correction.refused;
   return d;

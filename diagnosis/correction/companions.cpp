@@ -8,21 +8,21 @@ namespace joulepath {
 namespace {
 
 /// The equations about the fit, with the forms that inexact laws may have, as in the search.
-Equations equations_about(const Examination& x, const Refit& fitted) {
-  const std::set<std::string> unknowns = unknown_labels(x.id.equations, x.best());
+Equations equations_about(const Examination& x, const Refit& fitted, const std::set<std::string>& terms) {
   return build_equations(fitted.signals, x.dataset.robot, x.id.nuisances, fitted.state, {},
                          {.whole_catalog = false,
                           .dictionary = false,
-                          .unknowns = unknowns,
+                          .unknowns = terms,
                           .noise = &x.id.equations.noise,
                           .run_variance = &x.id.equations.run_variance});
 }
 
 }  // namespace
 
-std::optional<std::size_t> weakest_companion(const Examination& x, const Refit& fitted) {
+std::optional<std::size_t> weakest_companion(const Examination& x, const Refit& fitted,
+                                             const std::set<std::string>& terms) {
   if (fitted.state.effects.size() < 2) return std::nullopt;
-  Equations equations = equations_about(x, fitted);
+  Equations equations = equations_about(x, fitted, terms);
   LinearProblem problem = without_calibration(equations, every(equations.runs.size()), fitted.dispersion);
   std::vector<int> laws;
   for (int c = 0; c < std::ssize(equations.candidates); ++c)

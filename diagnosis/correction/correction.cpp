@@ -28,13 +28,10 @@ Correction correction_of(const Examination& x, const Validation& v) {
     return {.notes = {"these runs cannot separate the effects of the group: no correction is written"}};
   if (!v.corrected) return {.refused = v.refused};
   Correction correction;
-  bool physical = false;
   for (const ActiveEffect& effect : v.corrected->effects)
-    if (is_instrument(effect.candidate.shape.name))
-      correction.instruments.push_back(setting_of(effect.candidate, effect.amplitude, x.dataset.robot));
-    else
-      physical = true;
-  if (!physical) return correction;
+    (is_instrument(effect.candidate.shape.name) ? correction.instruments : correction.effects)
+        .push_back(setting_of(effect.candidate, effect.amplitude, x.dataset.robot));
+  if (correction.effects.empty()) return correction;
   Robot robot = corrected_robot(x, *v.corrected);
   write_constant_errors(v.errors, x.id.nuisances, *v.corrected, robot);
   correction.notes = {write_model_energy(held_out_errors(x, v.model), robot)};

@@ -6,7 +6,8 @@ namespace joulepath {
 
 /// What a user takes over; a note gives the reason if there is nothing.
 struct Correction {
-  std::optional<Robot> robot{};  ///< constants moved, physical effects added
+  std::optional<Robot> robot{};          ///< constants moved, physical effects added
+  std::vector<EffectSetting> effects{};  ///< those that are added
   std::vector<EffectSetting> instruments{};
   std::vector<std::string> notes{};
   std::string refused{};  ///< why a robot that shrinks the gap is not written; empty: none was refused

@@ -41,10 +41,6 @@ Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named,
   return fitted;
 }
 
-Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
-  return fit_names(x, named, unknown_labels(x.id.equations, x.best()));
-}
-
 /// What the held-out gap may be without a part of it that is not explained.
 double least_gap_left_percent(const Examination& x, const Refit& fitted) {
   return std::max(kFloorsLeft * noise_floor_percent(x, fitted), kMaterialGap_percent);
@@ -76,12 +72,11 @@ void withdraw(std::size_t member, const std::string& why, Validation& v) {
 /// Fits the names, without companions of the others, without those whose size a fit cannot tell from 0 or
 /// that lie outside their range. The evidence for them stays: without any name left the gap is unexplained,
 /// unless an effect too small to count is the cause.
-void fit_what_can_be_told(const Examination& x, Validation& v) {
+void fit_what_can_be_told(const Examination& x, const std::set<std::string>& terms, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
-  const std::set<std::string> terms = terms_beside_names(x, v.judgment);
   std::string dropped;
   v.fitted = fit_names(x, named, terms);
-  while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted)) {
+  while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted, terms)) {
     withdraw(*companion, "own evidence beside the other names is too small", v);
     v.fitted = fit_names(x, named, terms);
   }
@@ -178,18 +173,19 @@ bool is_no_gap(const Examination& x, double before, const Validation& v) {
 void list_what_is_no_gap(const Examination& x, Validation& v) {
   v = {.judgment = {.verdict = Verdict::no_gap}, .listed = v.judgment.sizes.of_names};
   std::erase_if(v.listed, [](const SmallEffect& effect) { return effect.size >= 1; });
-  v.fitted = fit_names(x, {});
+  v.fitted = fit_names(x, {}, {});
   v.model = judged_model(x, v.fitted);
 }
 
 /// The first part of the names that is better than the file on held-out runs and that the program reads.
 /// Constants are moved only where that reduces the gap. Names that widen it by more than kMaterialGap_percent
 /// are withdrawn.
-void choose_correction(const Examination& x, double before, Validation& v) {
+void choose_correction(const Examination& x, const std::set<std::string>& terms, double before,
+                       Validation& v) {
   const bool widens = gap_percent(x, v.model) > before + kMaterialGap_percent;
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
     const bool all = part.size() == v.judgment.named.size();
-    const Refit fitted = all ? v.fitted : fit_names(x, part);
+    const Refit fitted = all ? v.fitted : fit_names(x, part, terms);
     for (Draft& draft : drafts_of(x, fitted, all ? v.model : judged_model(x, fitted))) {
       if (!is_better(x, before, draft.model)) break;
       v.refused = x.refusal ? x.refusal(corrected_robot(x, draft.state)) : "";
@@ -223,7 +219,7 @@ void choose_correction(const Examination& x, double before, Validation& v) {
                              " widens the held-out energy gap: no name is given");
   v.judgment.named.clear();
   v.judgment.verdict = Verdict::unexplained;
-  v.fitted = fit_names(x, {});
+  v.fitted = fit_names(x, {}, {});
   v.model = judged_model(x, v.fitted);
 }
 
@@ -272,12 +268,14 @@ double noise_floor_percent(const Examination& x, const Refit& fitted, EnergyAt a
 
 Validation validate(const Examination& x, const Judgment& by_race) {
   Validation v{.judgment = by_race};
-  fit_what_can_be_told(x, v);
+  const std::set<std::string> terms = terms_beside_names(x, v.judgment);
+  fit_what_can_be_told(x, terms, v);
   v.model = judged_model(x, v.fitted);
   if (v.judgment.verdict == Verdict::too_little_data) return v;
   const double before = nominal_gap_percent(x);
   if (is_no_gap(x, before, v)) list_what_is_no_gap(x, v);
-  if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, before, v);
+  if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous)
+    choose_correction(x, terms, before, v);
   judge_what_is_left(x, before, v);
   return v;
 }

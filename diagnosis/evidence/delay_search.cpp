@@ -1,11 +1,27 @@
 #include "diagnosis/evidence/delay_search.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
+namespace {
+
+/// Sum of squares that V(t + shift) = a + b i(t + shift) + c q'(t) leaves at best, over `count` samples from
+/// `begin` on. The file's constants may be wrong, and a resistance that is wrong imitates a shift.
+double left_of_winding(const RunSignals& run, Side side, Eigen::Index shift, Eigen::Index begin,
+                       Eigen::Index count, Eigen::Index stride) {
+  const auto samples = [&](Eigen::Index from) { return Eigen::seqN(from, count, stride); };
+  const Eigen::VectorXd volts = run.motor_voltage_V[side](samples(begin + shift));
+  Eigen::MatrixX3d known(count, 3);
+  known << Eigen::VectorXd::Ones(count), run.motor_current_A[side](samples(begin + shift)),
+      run.wheel_speed_rad_s[side](samples(begin));
+  return (volts - known * known.colPivHouseholderQr().solve(volts)).squaredNorm();
+}
+
+}  // namespace
 
 double rough_channel_delay_s(const LogSet& logs) {
   if (logs.runs.empty()) return 0.0;
@@ -24,18 +40,11 @@ double rough_channel_delay_s(const LogSet& logs) {
     double left_over = 0;
     for (const RunSignals& run : signals)
       for (Side side : kSides) {
-        const Motor& motor = logs.dataset->robot.motor[side];
-        const Eigen::VectorXd &volts = run.motor_voltage_V[side], &amperes = run.motor_current_A[side];
         const Eigen::Index begin = std::max(0, -zero_first), end = run.size() - std::max(0, last);
-        if (volts.size() != run.size() || amperes.size() != run.size() || end <= begin) continue;
-        // V(t + shift) - R i(t + shift) - Kv n q'(t), minus its mean, because constants may be wrong.
-        double sum = 0, square = 0, count = 0;
-        for (Eigen::Index j = begin; j < end; j += stride, ++count) {
-          const double winding_V = volts[j + shift] - motor.resistance_ohm * amperes[j + shift] -
-                                   motor.volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side][j];
-          sum += winding_V, square += winding_V * winding_V;
-        }
-        left_over += square - sum * sum / count;
+        if (run.motor_voltage_V[side].size() != run.size() ||
+            run.motor_current_A[side].size() != run.size() || end <= begin)
+          continue;
+        left_over += left_of_winding(run, side, shift, begin, (end - begin + stride - 1) / stride, stride);
         any = true;
       }
     if (shift == 0) at_zero = left_over;

@@ -181,7 +181,8 @@ struct Diagnosis {
   double joules_lost_percent{};      ///< by planning with the nominal model
   std::vector<std::string> validation_runs{};
   std::string validation_method{};
-  std::optional<Robot> corrected_robot{};  ///< where a correction holds on held-out runs
+  std::optional<Robot> corrected_robot{};          ///< where a correction holds on held-out runs
+  std::vector<EffectSetting> corrected_effects{};  ///< that it has beside those of the robot file
   std::vector<EffectSetting> corrected_instruments{};
   std::string refused_correction{};  ///< why a correction that shrinks the gap is not written; empty: none
 };

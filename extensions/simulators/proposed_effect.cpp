@@ -14,13 +14,10 @@ bool shrinks(const GapReport& gap) {
 }  // namespace
 
 std::optional<EffectSetting> proposed_effect(const Cause& cause, const Diagnosis& diagnosis) {
-  if (!diagnosis.corrected_robot && diagnosis.corrected_instruments.empty())
+  if (diagnosis.corrected_effects.empty() && diagnosis.corrected_instruments.empty())
     return shrinks(diagnosis.gap) ? std::optional(cause.effect) : std::nullopt;
   std::vector<EffectSetting> kept = diagnosis.corrected_instruments;
-  if (diagnosis.corrected_robot) {
-    const std::vector<EffectSetting>& physical = diagnosis.corrected_robot->effects;
-    kept.insert(kept.end(), physical.rbegin(), physical.rend());  // before the robot file's own effects
-  }
+  kept.insert(kept.end(), diagnosis.corrected_effects.begin(), diagnosis.corrected_effects.end());
   const auto found = std::ranges::find_if(kept, [&](const EffectSetting& effect) {
     return effect.name == cause.effect.name && effect.side == cause.effect.side;
   });

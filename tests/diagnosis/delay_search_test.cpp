@@ -38,6 +38,19 @@ TEST(DelaySearch, FindsLateAndEarlyChannels) {
   }
 }
 
+// V - R i of a wrong R changes with the acceleration, as a shift of the speed does.
+TEST(DelaySearch, TakesNoConstantOfTheFileForAShift) {
+  for (const double factor : {1 / 1.6, 1.6})
+    for (double Motor::*constant : {&Motor::resistance_ohm, &Motor::voltage_constant_V_s_rad})
+      for (const long samples : {0L, 5L}) {
+        Dataset dataset = late_by(samples);
+        for (Side side : kSides) dataset.robot.motor[side].*constant *= factor;
+        EXPECT_NEAR(rough_channel_delay_s({.dataset = &dataset, .runs = {0}}),
+                    static_cast<double>(samples) * kLogPeriod_s, 1e-9)
+            << factor << ' ' << samples;
+      }
+}
+
 TEST(DelaySearch, NeedsVoltages) {
   Dataset dataset = late_by(5);
   dataset.runs[0].log.motor_voltage_V = {};

@@ -39,13 +39,12 @@ TEST(ProposedEffect, MayShrinkTheGapOfAnotherSignalWhereTheEnergyHardlyChanges) 
   EXPECT_FALSE(first_of(diagnosis));
 }
 
-/// The correction decides what is in the model, with its own size, also beside an effect of the robot file.
+/// The correction decides what is in the model, with its own size.
 TEST(ProposedEffect, IsTheCorrectionsWhereThereIsOne) {
   Diagnosis diagnosis = with_gap(8.2, 0.3);
   diagnosis.causes.push_back({.effect = drag(Side::right, 0.2)});
   diagnosis.corrected_robot = testing::nomad();
-  diagnosis.corrected_robot->effects = {drag(Side::right, 0.9), drag(Side::left, 0.7),
-                                        drag(Side::right, 0.1)};
+  diagnosis.corrected_effects = {drag(Side::left, 0.7), drag(Side::right, 0.1)};
   EXPECT_FALSE(first_of(diagnosis)) << "the correction leaves it out";
   const auto kept = proposed_effect(diagnosis.causes.back(), diagnosis);
   ASSERT_TRUE(kept);
@@ -53,6 +52,17 @@ TEST(ProposedEffect, IsTheCorrectionsWhereThereIsOne) {
   EXPECT_EQ(kept->parameters.at("torque_Nm"), 0.1);
   diagnosis.corrected_instruments = {resistance(0.6)};
   EXPECT_TRUE(first_of(diagnosis));
+}
+
+// The model has what its user set: a patch proposes what the correction adds.
+TEST(ProposedEffect, IsNeverTheRobotFilesOwn) {
+  Diagnosis diagnosis = with_gap(8.2, 0.3);
+  diagnosis.causes.push_back({.effect = drag(Side::right, 0.2)});
+  diagnosis.corrected_robot = testing::nomad();
+  diagnosis.corrected_robot->effects = {drag(Side::right, 0.9), resistance(-0.09)};
+  diagnosis.corrected_effects = {resistance(-0.09)};
+  EXPECT_TRUE(first_of(diagnosis));
+  EXPECT_FALSE(proposed_effect(diagnosis.causes.back(), diagnosis)) << "the correction leaves it as it is";
 }
 
 // The gap shrank by the instrument: a wheel that the correction leaves as it is stays so in the model.
