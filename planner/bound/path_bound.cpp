@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLeastLine_m = 0.05;    ///< a shorter line is bounded by zero
 constexpr double kLeastHeading_m = 0.2;  ///< the shortest line that knows headings
+constexpr int kMostLines = 4;            ///< that are tried for a leg
 constexpr double kLengthRatio = 1.12;    ///< of the lines that know headings, below the long one
 constexpr double kHeadingGain_J = 0.01;  ///< that counts
 
@@ -123,7 +124,9 @@ double LegBounds::with_headings_J(const LegEnds& leg, double time_W, double way_
   const HeadingEnds ends{
       {leg.goal_m[0] - leg.start_m[0], leg.goal_m[1] - leg.start_m[1]}, leg.start_rad, leg.goal_rad};
   double bound_J = leg.cost_at_most_J, from_m = way_m, straight_J = line_J;
+  int tried = 0;
   for (std::size_t k = lengths_m.size(); k-- > 0 && straight_J < bound_J;) {
+    if (++tried > kMostLines) return straight_J;  // a longer way takes more
     const LineBound& straight = line(leg.payload_kg, time_W, lengths_m[k]);
     if (!(straight.per_m_J > 0)) return line_J;
     const double to_m =
@@ -147,7 +150,10 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
   LegBound bound{.cost_J = 0, .around_corners = way.around_corners};
   if (way.length_m < kLeastLine_m) return bound;
   const double long_m = long_line_m(form(leg.payload_kg), time_W);
-  const double line_J = line(leg.payload_kg, time_W, std::min(way.length_m, long_m)).at(way.length_m);
+  const LineBound& straight = line(leg.payload_kg, time_W, std::min(way.length_m, long_m));
+  if (!(straight.per_m_J > 0))
+    return {.reason = "the bound finds no energy that a meter takes at the speed of a long drive"};
+  const double line_J = straight.at(way.length_m);
   bound.cost_J = line_J;
   if ((leg.start_rad || leg.goal_rad) && way.length_m > kLeastHeading_m && std::isfinite(leg.cost_at_most_J))
     bound.cost_J = std::max(line_J, with_headings_J(leg, time_W, way.length_m, line_J));
