@@ -26,7 +26,7 @@ from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E4
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
 from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
-from joulepath.fleet._search import improve, search  # noqa: E402
+from joulepath.fleet._search import first_schedule, improve, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
@@ -112,6 +112,14 @@ def test_sets_below_rising_costs_prove_what_the_constraint_program_alone_proves(
     status, found = search(problem, workers=1)
     assert status in ("optimal", "infeasible")
     assert (found.cost if found else None) == least(problem)
+
+
+def test_a_robot_drives_ways_of_its_own_type():
+    """Two types: a program that takes the lighter one's ways is too cheap, and proves a schedule that is not the cheapest."""
+    problem = generator.tight(211, robots=3, missions=6, chargers=1)
+    status, found = solve(problem, workers=1, limit=20.0, start=first_schedule(problem))
+    assert status == "optimal" and judge.faults(problem, found) == []
+    assert found.cost == 293_485  # by brute force of benchmarks/fleet/judge.py, in a minute
 
 
 RELAXED = [(generator.small, seed, SMALL) for seed in range(4)] + [

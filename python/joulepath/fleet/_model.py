@@ -61,6 +61,7 @@ class FleetModel:
             for j in self.missions:
                 if node.index != len(self.robots) + j:
                     self._add_ways(node, j)
+        self._add_types_of_ways()
         self._add_ends()
         add_chargers(self)
         self.model.add_circuit(self.arcs)
@@ -168,6 +169,13 @@ class FleetModel:
         m.add(sum(literals) == arc)
         self.arcs.append((node.index, len(self.robots) + j, arc))
         self._add_same_robot(node, j, arc)
+
+    def _add_types_of_ways(self) -> None:
+        """A way to a mission is one of its robot's type."""
+        for j, mission in enumerate(self.problem.missions):
+            for t in mission.drives:
+                ways = [v for (_, k, u, _, _), v in self.taken.items() if (k, u) == (j, t)]
+                self.model.add(sum(ways) == sum(v for r, v in self.assigned[j].items() if self.problem.robots[r].type == t))
 
     def _possible(self, node: Node, j: int, t: int, c: int, k: int) -> bool:
         """Whether a way is cheap enough, and short enough for the latest end of its mission."""

@@ -149,6 +149,6 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
         return ("unknown", None) if start is None else ("feasible", replace(start, bound=low))
     found = _schedule(fleet, solver)
-    word = "optimal" if status == cp_model.OPTIMAL else "feasible"
     cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
-    return word, Schedule(found.routes, cost, min(max(found.bound, low), cost), status == cp_model.OPTIMAL)
+    proven = status == cp_model.OPTIMAL and cost == found.cost
+    return "optimal" if proven else "feasible", Schedule(found.routes, cost, min(max(found.bound, low), cost), proven)
