@@ -32,11 +32,13 @@ class RateSamples {
   HeadingRates at(MotionPrice price, const TurnCredit& credit, double tolerance) {
     price.credit = credit, price.time_W = time_W_;
     const double turning_J = turning_price(form_, credit, time_W_);
-    double& most_J = most_J_.try_emplace({credit.spin, credit.inner}, kWidest * turning_J).first->second;
+    double& most_J =
+        most_J_.try_emplace({credit.spin, credit.inner}, std::isfinite(turning_J) ? kWidest * turning_J : 0.0)
+            .first->second;
     for (;; most_J *= kNarrower) {
       const std::vector<double> rates = least_rates(form_, price, prices(most_J), tolerance);
       HeadingRates found{most_J, Eigen::Map<const Eigen::ArrayXd>(rates.data(), std::ssize(rates))};
-      if (found.at.isFinite().all() || most_J < kNarrowest * turning_J) return found;
+      if (found.at.isFinite().all() || !(most_J > kNarrowest * turning_J)) return found;
     }
   }
 
@@ -84,7 +86,7 @@ RateTable rate_table(const PowerForm& form, double length_m, double time_W, bool
     const double most_J = std::min(from.most_J, to.most_J);
     table.pieces.push_back({narrowed(from, most_J), narrowed(to, most_J)});
   }
-  const auto bounded = [](const HeadingRates& at) { return at.at.isFinite().all(); };
+  const auto bounded = [](const HeadingRates& at) { return at.most_J > 0 && at.at.isFinite().all(); };
   table.bounded = bounded(table.middle) &&
                   std::all_of(table.pieces.begin(), table.pieces.end(),
                               [&](const auto& ends) { return bounded(ends[0]) && bounded(ends[1]); });

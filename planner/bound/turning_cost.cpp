@@ -28,7 +28,7 @@ double TurningCost::bent_rad() const {
 
 std::vector<double> TurningCost::below_on_grid(double cell_rad, int reach) const {
   std::vector<double> values(static_cast<std::size_t>(2 * reach + 1));
-  const auto value = [&](int cell) -> double& { return values[static_cast<std::size_t>(cell + reach)]; };
+  const auto value = [&](int cell) -> double& { return *(values.begin() + reach + cell); };
   value(0) = (*this)(0.0);
   for (const int way : {-1, 1})
     for (int k = 0; k < reach; ++k) {  // outward, on the highest line that stays below the function
