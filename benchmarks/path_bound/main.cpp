@@ -188,12 +188,15 @@ void write_poses(std::ostream& out) {
   }
 }
 
-void write_tables(std::ostream& out) {
+PowerForm nomad_form() {
   const Robot robot = read_robot("scenarios/robots/nomad_super_scout.yaml");
-  const PowerForm form = power_form(make_plant(robot), *robot.limits, 0);
+  return power_form(make_plant(robot), *robot.limits, 0);
+}
+
+void write_tables(std::ostream& out) {
+  const PowerForm form = nomad_form();
   out << "\n## Tables\n\nOne for a robot, a payload, a price of time and a length of the line; all lengths "
-         "above "
-         "the greatest share one.\n\n| length of the line | CPU |\n|---:|---:|\n";
+         "above the greatest share one.\n\n| length of the line | CPU |\n|---:|---:|\n";
   for (const double way_m : {0.5, 1.0, 2.0, long_line_m(form, 0)}) {
     const double begin_ms = cpu_ms();
     const RateTable table = rate_table(form, way_m, 0, true, true);
@@ -202,8 +205,7 @@ void write_tables(std::ostream& out) {
 }
 
 void write_lines(std::ostream& out) {
-  const Robot robot = read_robot("scenarios/robots/nomad_super_scout.yaml");
-  const PowerForm form = power_form(make_plant(robot), *robot.limits, 0);
+  const PowerForm form = nomad_form();
   out << "\n## Straight lines\n\nThe bound drives a straight line; what it loses there it loses "
          "everywhere.\n\n| length | least energy of the line | bound | "
          "difference | CPU |\n|---:|---:|---:|---:|---:|\n";

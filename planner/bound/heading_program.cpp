@@ -29,6 +29,9 @@ std::pair<int, double> place_of(double turned_rad) {
   return {around(static_cast<int>(cell)), place - cell};
 }
 
+/// By how much a multiplier along the motion may lie above its chords.
+double interpolation_error(double size) { return size * kCell_rad * kCell_rad / 8; }
+
 Eigen::ArrayXd prices_of(const HeadingStage& stage, double multiplier) {
   const double most_J = stage.most_J() - 0.5 * stage.length_m * multiplier;
   return Eigen::ArrayXd::LinSpaced(stage.nodes.front().rates.at.size(), -most_J, most_J);
@@ -142,7 +145,7 @@ void HeadingProgram::make_optional_costs(const HeadingStage& stage) {
     at(on_grid_, level) = cost(level).below_on_grid(kCell_rad, reach_);
     lower(at(on_grid_, level), at(on_grid_, level + 1));
   }
-  const double interpolation = size_ * kCell_rad * kCell_rad / 8;
+  const double interpolation = interpolation_error(size_);
   for (int i = 0; i < kHeadings; ++i)
     at(most_along_, i) =
         interpolation + std::max({at(along_, around(i - 1)), at(along_, i), at(along_, around(i + 1))});
@@ -150,7 +153,7 @@ void HeadingProgram::make_optional_costs(const HeadingStage& stage) {
 
 /// The whole stage.
 void HeadingProgram::drive(std::size_t k) {
-  const double half_m = 0.5 * stages_[k].length_m, interpolation = size_ * kCell_rad * kCell_rad / 8;
+  const double half_m = 0.5 * stages_[k].length_m, interpolation = interpolation_error(size_);
   Costs before;
   for (int i = 0; i < kHeadings; ++i) at(before, i) = at(cost_, i) - half_m * (at(along_, i) + interpolation);
   cost_.fill(std::numeric_limits<double>::infinity());

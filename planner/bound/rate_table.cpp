@@ -31,10 +31,12 @@ class RateSamples {
 
   HeadingRates at(MotionPrice price, const TurnCredit& credit, double tolerance) {
     price.credit = credit, price.time_W = time_W_;
-    const double turning_J = turning_price(form_, credit, time_W_);
-    double& most_J =
-        most_J_.try_emplace({credit.spin, credit.inner}, std::isfinite(turning_J) ? kWidest * turning_J : 0.0)
-            .first->second;
+    const auto [found_range, is_new] = ranges_.try_emplace({credit.spin, credit.inner});
+    auto& [turning_J, most_J] = found_range->second;
+    if (is_new) {
+      turning_J = turning_price(form_, credit, time_W_);
+      most_J = std::isfinite(turning_J) ? kWidest * turning_J : 0.0;
+    }
     for (;; most_J *= kNarrower) {
       const std::vector<double> rates = least_rates(form_, price, prices(most_J), tolerance);
       HeadingRates found{most_J, Eigen::Map<const Eigen::ArrayXd>(rates.data(), std::ssize(rates))};
@@ -51,7 +53,10 @@ class RateSamples {
 
   const PowerForm& form_;
   double time_W_{};
-  std::map<std::pair<double, double>, double> most_J_{};  ///< by credit
+  struct Range {
+    double turning_J{}, most_J{};  ///< price at which turning in place pays; greatest one that is bounded
+  };
+  std::map<std::pair<double, double>, Range> ranges_{};  ///< by credit
 };
 
 }  // namespace
