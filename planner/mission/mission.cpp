@@ -330,15 +330,14 @@ Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const 
                 const RouteSpace* space, const Plant& plant, const Plan& known) {
   const ChoiceContext context{mission, world,   need_space(mission, space),
                               plant,   options, first_price_W(mission, world, plant)};
-  std::vector<OrderEstimate> orders = order_visits(context);
-  if (auto& reason = orders.front().visit.infeasibility) {
-    Plan plan = known;
-    plan.visit = orders.front().visit;
-    return infeasible(std::move(plan), 0, 0.0, *std::move(reason));
-  }
-  return plan_visits(mission, std::move(orders), context.finite_price_W(), [&](const MissionRequest& legs) {
+  Plan plan = plan_visits(context, [&](const MissionRequest& legs) {
     return plan_with_stops(legs, world, options, space, plant, known);
   });
+  if (!plan.visit->infeasibility) return plan;
+  Infeasibility reason = *plan.visit->infeasibility;
+  Plan verdict = known;
+  verdict.visit = std::move(plan.visit);
+  return infeasible(std::move(verdict), 0, 0.0, std::move(reason));
 }
 
 using PlansMissionIn =

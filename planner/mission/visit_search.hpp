@@ -44,8 +44,12 @@ class VisitSearch {
   /// that end elsewhere or could be cheaper in another time.
   [[nodiscard]] std::vector<VisitLabel> orders(const RelaxedVisits& relaxed = {}) const;
 
-  /// Energy of the order in which the stops are listed; nothing if it violates a window or the capacity.
-  [[nodiscard]] std::optional<double> given_order_J() const;
+  /// Energy of an order; nothing if it violates a window or the capacity.
+  [[nodiscard]] std::optional<double> order_J(const std::vector<std::size_t>& order) const;
+
+  /// Corrects the costs of an order's legs by a plan of it. Where the plan has stops at chargers, nothing is
+  /// learned.
+  void learn(const std::vector<std::size_t>& order, const Plan& plan);
 
   /// Energy of a label's cheapest drives within its windows.
   [[nodiscard]] double energy_J(const VisitLabel& label) const {

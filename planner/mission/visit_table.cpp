@@ -89,14 +89,23 @@ VisitTable::LegCost VisitTable::measure(const ChoiceContext& context, std::size_
   return result;
 }
 
-TimeFront VisitTable::front(std::size_t from, std::size_t to, double payload_kg) const {
+TimeFront VisitTable::estimate(std::size_t from, std::size_t to, double payload_kg, double factor) const {
   const double fraction = heaviest_kg_ > 0 ? payload_kg / heaviest_kg_ : 0.0;
   std::vector<TimeFront::Point> points;
   for (const Drive& drive : cost(from, to).drives) {
     const double time_s = interpolate(drive.duration_s, fraction);
-    points.push_back({time_s, interpolate(drive.energy_J, fraction) + price_W_ * time_s});
+    points.push_back({time_s, factor * (interpolate(drive.energy_J, fraction) + price_W_ * time_s)});
   }
   return TimeFront::below(std::move(points));
+}
+
+TimeFront VisitTable::front(std::size_t from, std::size_t to, double payload_kg) const {
+  return estimate(from, to, payload_kg, cost(from, to).factor.value_or(rest_));
+}
+
+void VisitTable::learn(std::size_t from, std::size_t to, double payload_kg, double planned_J, double rest) {
+  table_[from * count_ + to].factor = planned_J / estimate(from, to, payload_kg, 1).least_J();
+  rest_ = rest;
 }
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "planner/mission/time_front.hpp"
@@ -16,10 +17,13 @@ class VisitTable {
   explicit VisitTable(const ChoiceContext& context);
 
   [[nodiscard]] bool reachable(std::size_t from, std::size_t to) const { return cost(from, to).reachable; }
-  /// Cost of a leg over its time, at the mission's own price, for a payload.
+  /// Cost of a leg over its time, at the mission's own price, for a payload, by what was learned.
   [[nodiscard]] TimeFront front(std::size_t from, std::size_t to, double payload_kg) const;
   /// The mission's price of a second, in addition to standby.
   [[nodiscard]] double price_W() const { return price_W_; }
+  /// Corrects the cost of a leg, at any payload, by what a plan of it cost (J, time at its price included).
+  /// Legs without such a plan cost `rest` of their estimate from then on.
+  void learn(std::size_t from, std::size_t to, double payload_kg, double planned_J, double rest);
   /// Energy of the cheapest drive without payload.
   [[nodiscard]] double unloaded_J(std::size_t from, std::size_t to) const {
     return cost(from, to).drives.back().energy_J[0];
@@ -32,15 +36,18 @@ class VisitTable {
   };
   struct LegCost {
     bool reachable{};
-    std::vector<Drive> drives{};  ///< from the highest price of time to the mission's own
+    std::optional<double> factor{};  ///< of a plan's cost to the estimate
+    std::vector<Drive> drives{};     ///< from the highest price of time to the mission's own
   };
 
   const LegCost& cost(std::size_t from, std::size_t to) const { return table_[from * count_ + to]; }
+  TimeFront estimate(std::size_t from, std::size_t to, double payload_kg, double factor) const;
   LegCost measure(const ChoiceContext& context, std::size_t from, std::size_t to) const;
 
   std::size_t count_;
   double price_W_;
   double heaviest_kg_{};
+  double rest_{1};  ///< factor of legs without one
   std::vector<LegCost> table_{};
 };
 

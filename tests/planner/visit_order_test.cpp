@@ -47,7 +47,7 @@ Plan visit_plan(const MissionRequest& mission, const Robot& robot = testing::nom
                       {.solver = SolverChoice::fast, .nodes = 40, .baselines = false});
 }
 
-TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
+TEST(VisitOrder, NoOtherOrderTakesLessWhenPlannedInFull) {
   const MissionRequest mission = round_trip();
   const Plan chosen = visit_plan(mission);
   ASSERT_TRUE(chosen.visit);
@@ -66,7 +66,9 @@ TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
     fixed.legs.push_back({.to = "dock", .payload = {payload_kg, payload_kg}});
     const Plan other = visit_plan(fixed);
     ASSERT_FALSE(other.legs.empty()) << other.message;
-    EXPECT_GE(other.energy.total_J(), 0.97 * chosen.energy.total_J());  // the table ignores turns at stops
+    EXPECT_GE(other.energy.total_J(), 0.9999 * chosen.energy.total_J());
+    if (std::is_sorted(order.begin(), order.end()))
+      EXPECT_NEAR(chosen.visit->given_order_J.value(), other.energy.total_J(), 0.3 * other.energy.total_J());
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
@@ -327,12 +329,6 @@ TEST(VisitOrder, AWindowThatNoOrderMeetsIsNamedWithTheSecondsMissing) {
   EXPECT_GT(late_s, 18.0 / 1.0 - 5.0);  // not even at full speed all the way
   mission.visit[1].window_s = {0.0, 5.0 + late_s + 1e-6};
   EXPECT_FALSE(visit_plan(mission).infeasibility);
-}
-
-TEST(VisitOrder, TheOrderAsListedIsNeverCheaperThanTheChosenOne) {
-  const Plan plan = visit_plan(round_trip());
-  ASSERT_TRUE(plan.visit->given_order_J);
-  EXPECT_GE(*plan.visit->given_order_J, plan.visit->energy_J);
 }
 
 TEST(VisitOrder, AStopInAWallIsNamed) {

@@ -37,9 +37,12 @@ class FreeSpace {
   /// kNearEnds_m of the ends may always be used.
   [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
                                                Cells cells) const;
-  [[nodiscard]] bool clear(double x_m, double y_m) const {
+  [[nodiscard]] bool clear(double x_m, double y_m) const { return rings(x_m, y_m) != 0; }
+  /// 0 where the cell is not clear, else one more than the rings of cells about it that are clear as well
+  /// (at most 254).
+  [[nodiscard]] int rings(double x_m, double y_m) const {
     const auto cell = grid_.cell_of(x_m, y_m);
-    return grid_.contains(cell) && rings_[index(cell)] != 0;
+    return grid_.contains(cell) ? rings_[index(cell)] : 0;
   }
   [[nodiscard]] bool free_cell(OccupancyGrid::CellIndex cell) const { return component_[index(cell)] >= 0; }
   /// Calls visit(cell) for the cells on a line that are not clear until it returns false.
@@ -58,7 +61,6 @@ class FreeSpace {
   OccupancyGrid grid_{};  ///< geometry only
   double radius_m_{};
   std::vector<std::int32_t> component_{};  ///< -1: not free
-  /// 0: not clear; else the cells of so many rings about the cell, less one, are clear as well (at most 254).
   std::vector<std::uint8_t> rings_{};
   double cosine_{}, sine_{};  ///< of the grid's heading
 };

@@ -16,6 +16,25 @@ double plain_distance_m(const Point2& a, const Point2& b) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
+/// A place itself where it is clear or nothing about it is, else the one with most room within `reach` cells.
+Point2 roomiest_about(const Point2& at, int reach, const FreeSpace& space) {
+  const OccupancyGrid& grid = space.field().map();
+  const auto center = grid.cell_of(at[0], at[1]);
+  Point2 best = at;
+  int most = space.rings(at[0], at[1]);
+  if (most != 0) return at;
+  double nearest_m = kNoLimit;
+  for (int row = center.row - reach; row <= center.row + reach; ++row)
+    for (int column = center.column - reach; column <= center.column + reach; ++column) {
+      const Point2 there = grid.center_of({column, row});
+      const int rings = space.rings(there[0], there[1]);
+      const double off_m = plain_distance_m(at, there);
+      if (rings == 0 || rings < most || (rings == most && off_m >= nearest_m)) continue;
+      best = there, most = rings, nearest_m = off_m;
+    }
+  return best;
+}
+
 }  // namespace
 
 Lattice::Lattice(const FreeSpace& space, double spacing_m)
@@ -23,10 +42,12 @@ Lattice::Lattice(const FreeSpace& space, double spacing_m)
   columns_ = static_cast<int>((extent_.x_max_m - extent_.x_min_m) / spacing_m) + 1;
   rows_ = static_cast<int>((extent_.y_max_m - extent_.y_min_m) / spacing_m) + 1;
   price_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1.0);
-}
-
-Point2 Lattice::place(Node node) const {
-  return {extent_.x_min_m + node.column * spacing_m_, extent_.y_min_m + node.row * spacing_m_};
+  places_.reserve(price_.size());
+  const int reach = static_cast<int>(std::lround(0.5 * spacing_m / space.field().map().resolution_m));
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      places_.push_back(roomiest_about(
+          {extent_.x_min_m + column * spacing_m, extent_.y_min_m + row * spacing_m}, reach, space));
 }
 
 Lattice::Node Lattice::nearest(const Point2& p) const {
@@ -61,8 +82,7 @@ void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, doub
 }
 
 template <class Visit>
-void Lattice::for_nodes_around(const Point2& p, const Visit& visit) const {
-  const Node center = nearest(p);
+void Lattice::for_nodes_around(Node center, const Visit& visit) const {
   for (int row = center.row - 1; row <= center.row + 1; ++row)
     for (int column = center.column - 1; column <= center.column + 1; ++column)
       if (row >= 0 && column >= 0 && row < rows_ && column < columns_) visit(Node{column, row});
@@ -74,7 +94,7 @@ std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, cons
   std::vector<std::size_t> parent(price_.size(), kNone);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for_nodes_around(start, [&](Node node) {
+  for_nodes_around(nearest(start), [&](Node node) {
     if (!free(start, place(node))) return;
     cost[index(node)] = plain_distance_m(start, place(node));
     open.push({cost[index(node)] + plain_distance_m(place(node), goal), index(node)});
@@ -93,7 +113,7 @@ std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, cons
       best = cost[here] + to_goal_m;
       last = here;
     }
-    for_nodes_around(from, [&](Node next) {
+    for_nodes_around(node(here), [&](Node next) {
       const std::size_t to = index(next);
       const double sum = cost[here] + plain_distance_m(from, place(next)) * 0.5 * (price_[here] + price_[to]);
       if (settled[to] != 0 || sum >= cost[to] || !free(from, place(next))) return;

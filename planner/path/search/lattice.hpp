@@ -7,7 +7,8 @@
 namespace joulepath {
 
 /// A coarse square lattice over the floor with eight neighbors and a price per metre at each node, for quick
-/// searches that avoid earlier ways. It may miss passages narrower than its spacing.
+/// searches that avoid earlier ways. A node whose place is not clear moves to the place nearby that has most
+/// room, so that few passages narrower than the spacing are missed.
 class Lattice {
  public:
   explicit Lattice(const FreeSpace& space, double spacing_m = 0.2);
@@ -31,15 +32,16 @@ class Lattice {
     return {static_cast<int>(i % static_cast<std::size_t>(columns_)),
             static_cast<int>(i / static_cast<std::size_t>(columns_))};
   }
-  Point2 place(Node node) const;
-  /// Calls visit(node) for the node nearest to a place and its neighbors.
+  const Point2& place(Node node) const { return places_[index(node)]; }
+  /// Calls visit(node) for a node and its neighbors.
   template <class Visit>
-  void for_nodes_around(const Point2& place_m, const Visit& visit) const;
+  void for_nodes_around(Node center, const Visit& visit) const;
   Node nearest(const Point2& point_m) const;
 
   double spacing_m_{};
   ObstacleField::Extent extent_{};
   int columns_{}, rows_{};
+  std::vector<Point2> places_{};
   std::vector<double> price_{};
 };
 

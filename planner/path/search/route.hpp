@@ -86,7 +86,7 @@ struct RouteResult {
   std::vector<Point2> polyline_m{};  ///< pulled taut, before its corners were rounded
   double polyline_cost{};
   unsigned search_iterations{};
-  std::string searched_by{};  ///< planner, "line of sight", or "lattice" where that was better
+  std::string searched_by{};  ///< "line of sight", or the source that found it
 
   bool found() const { return verdict.status == RouteStatus::found; }
 };

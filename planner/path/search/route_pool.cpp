@@ -18,6 +18,7 @@ constexpr double kDearer = 1.0;      // increase of the price of a metre per ear
 constexpr double kWideWithin_m = 2.5;
 constexpr double kWideExtra_m = 0.6;
 constexpr int kAttemptsPerClass = 2;
+constexpr unsigned kPatience = 1000;  // of a search for length, which the lattice does as well
 constexpr std::uint64_t kSeedStride = 7919;
 
 /// The routes found so far between the ends of one request.
@@ -39,16 +40,18 @@ class Pool {
     add({start_, goal_}, "line of sight");
     return true;
   }
-  /// Searches the lattice, or the cells where the lattice is too coarse; determines the cells that a way may
-  /// use.
+  /// Searches cell by cell, so that no passage is missed, and the lattice; determines the cells that a way
+  /// may use.
   void search_cells() {
-    std::vector<Point2> line = lattice_.route(start_, goal_, DiscLineCheck(floor_, start_, goal_, cells_));
-    if (line.empty()) line = floor_.cell_route(start_, goal_, cells_);
+    std::vector<Point2> line = floor_.cell_route(start_, goal_, cells_);
     if (line.empty()) line = floor_.cell_route(start_, goal_, cells_ = FreeSpace::Cells::free);
-    add_taut(line, "lattice");
+    add_taut(line, "cells");
+    add_taut(lattice_.route(start_, goal_, DiscLineCheck(floor_, start_, goal_, cells_)), "lattice");
   }
   void search(std::uint64_t seed) {
-    const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, cost_, seed});
+    SearchRequest request{start_, goal_, cells_, cost_, seed};
+    if (!cost_.rate) request.patience = kPatience;
+    const SearchResult found = search_polyline(floor_, request);
     iterations_ += found.iterations;
     add_taut(found.polyline_m, "bit_star");
   }
@@ -72,10 +75,11 @@ class Pool {
 
   void add_taut(const std::vector<Point2>& found, const std::string& source) {
     if (found.empty()) return;
-    const DiscLineCheck free(floor_, start_, goal_, cells_);
-    const std::vector<Point2> line = pull_taut(found, free, cost_);
+    const DiscLineCheck quick(floor_, start_, goal_, cells_),
+        exact(floor_, start_, goal_, FreeSpace::Cells::free);
+    const std::vector<Point2> line = pull_taut(found, quick, cost_);
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      if (!free(line[i], line[i + 1])) return;
+      if (!exact(line[i], line[i + 1])) return;
     add(line, source);
   }
 
@@ -112,7 +116,8 @@ std::vector<PooledRoute> search_all(const RouteSpace& space, const RouteRequest&
   Pool pool(space, request);
   if (!pool.straight()) {
     pool.search_cells();
-    for (int k = 0; k < options.searches; ++k)
+    const int searches = request.cost.rate ? 2 * options.searches : options.searches;
+    for (int k = 0; k < searches; ++k)
       pool.search(request.seed + kSeedStride * static_cast<std::uint64_t>(k));
     if (options.classes > 1) pool.search_away(options.classes);
   }

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "planner/path/search/graph_route.hpp"
 #include "planner/path/search/homotopy.hpp"
+#include "planner/path/search/polyline.hpp"
 #include "planner/path/search/route_pool.hpp"
 #include "planner/path/shape/blended_path.hpp"
 #include "tests/planner/path/grids.hpp"
@@ -50,6 +52,40 @@ TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
   ASSERT_EQ(routes.size(), 2u);
   EXPECT_LT(routes[0].cost, routes[1].cost);
   EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, space.islands_m()));
+}
+
+/// Walls across the floor, each with two openings hardly wider than the robot.
+OccupancyGrid slit_walls(unsigned seed) {
+  OccupancyGrid map = free_grid(240, 160, 0.05);
+  std::mt19937 random(seed);
+  const auto cell = [&](int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); };
+  for (int wall = 0; wall < 3; ++wall) {
+    const int column = 50 + 60 * wall + cell(-8, 8), thick = cell(1, 20);
+    const int low = cell(10, 60), high = cell(90, 135), wide = cell(15, 17);
+    fill(map, column, 0, column + thick, low);
+    fill(map, column, low + wide, column + thick, high);
+    fill(map, column, high + wide, column + thick, 160);
+  }
+  return map;
+}
+
+// The judge goes from cell to cell, its corners pulled taut without a last check.
+TEST(RoutePool, NoOpeningIsMissedThatACellFits) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const RouteSpace space(slit_walls(seed), nullptr, kRound, 0.05);
+    const RouteRequest request = route_across(1, 1 + 0.15 * seed, 11, 7 - 0.15 * seed);
+    const auto cells = FreeSpace::Cells::clear;
+    const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
+    const auto by_cells = space.any_heading().cell_route(start, goal, cells);
+    ASSERT_FALSE(by_cells.empty()) << seed;
+    const double judge_m = polyline_length_m(
+        pull_taut(by_cells, DiscLineCheck(space.any_heading(), start, goal, cells), TravelCost{}));
+    for (const PoolOptions& options : {PoolOptions{.classes = 1, .searches = 0}, PoolOptions{}}) {
+      const auto routes = pool_routes(space, request, options);
+      ASSERT_FALSE(routes.empty()) << seed;
+      EXPECT_LT(polyline_length_m(routes.front().polyline_m), 1.001 * judge_m) << seed;
+    }
+  }
 }
 
 // The quick check of cells keeps away from walls by more than a cell.
