@@ -180,7 +180,7 @@ class Diagnose : public Command {
     if (common_.json)
       std::cout << results.json;
     else if (!common_.quiet)
-      print_summary(std::cout, diagnosis), std::cout << more.str();
+      print_summary(std::cout, diagnosis), std::cout << more.str() << "results in " << out.path() << '\n';
     const bool gap = diagnosis.verdict != Verdict::no_gap || !diagnosis.runs_apart.empty();
     return fail_on_gap_ && gap ? kInfeasibleOrFailed : kDone;
   }

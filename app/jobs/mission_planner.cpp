@@ -43,6 +43,10 @@ Json plan_line(const Plan& plan) {
     if (baseline.name == "trapezoid_best_tuned" && baseline.feasible)
       json["saving_percent"] = saving_percent(baseline.optimum_J, baseline.energy_J);
   if (plan.battery) json["battery_end_fraction"] = plan.battery->end_fraction;
+  if (plan.confidence) {
+    json["kept"] = plan.confidence->kept;
+    for (const Promise& promise : plan.confidence->promises) json["promises"][promise.name] = promise.kept;
+  }
   return json;
 }
 
