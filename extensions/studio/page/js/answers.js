@@ -2,6 +2,7 @@
  * Answers of the planner. Drafts come from WebAssembly where the page has it, from the program otherwise; a plan is
  * certified by the program where there is one. Design: docs/decisions/0702-studio-and-reports.md
  */
+import {legs, place_after, straight} from "studio/editing.js";
 import {emit, has_legs, on, store} from "studio/store.js";
 
 const core_js = document.getElementById("core-js").textContent.replaceAll("<\\/script", "</script"), core_wasm = document.getElementById("core-wasm").textContent;
@@ -177,7 +178,16 @@ on("edit", ({release}) => {
   timer = setTimeout(settle, 60);
 });
 
+/** A picture while the first search runs: a draft along straight lines between the stops. */
+async function sketch() {
+  if (!has_legs() || ways_are_known()) return;
+  const answer = await ask("draft", {samples: 300, paths: legs().map((leg, k) => (leg.to ? straight(place_after(k - 1), place_after(k)) : null))});
+  if (store.answer || store.edits || !answer.motion) return;
+  Object.assign(store, {answer, verdict: answer.plan, state: "draft"});
+  emit("answer");
+}
+
 /** The first plan of the page. */
 export function start() {
-  if (store.first_answer) { take(store.first_answer, "planned", 0); emit("settled"); } else settle();
+  if (store.first_answer) { take(store.first_answer, "planned", 0); emit("settled"); } else { sketch(); settle(); }
 }

@@ -8,7 +8,7 @@ import {handles} from "studio/handles.js";
 import "studio/pointing.js";
 import {plots_panel} from "studio/plots.js";
 import {timeline} from "studio/timeline.js";
-import {causes, collides, leg_list, status_text, tiles} from "studio/summary.js";
+import {causes, collides, drag_text, leg_list, status_text, tiles} from "studio/summary.js";
 import {fields_of} from "studio/fields.js";
 import {selection_panel} from "studio/selection.js";
 import {front_panel} from "studio/front.js";
@@ -82,7 +82,7 @@ function start() {
   draw();
 }
 // What tests and benchmarks look at.
-window.studio = {store, answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))};
+window.studio = {store, answers, view, handles, page_text, drag_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))};
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;
 start();
