@@ -170,7 +170,9 @@ class Diagnose : public Command {
     const Diagnosis& diagnosis = results.diagnosis;
     out.write("diagnosis.json", signals_ ? results.json_with_signals() : results.json);
     out.write("report.html", results.report());
-    if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
+    if (diagnosis.corrected_robot)
+      out.write("robot_corrected.yaml",
+                robot_text_like(results.dataset.robot_file, *diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml",
                 corrected_dataset_text(results.dataset, diagnosis.corrected_instruments, out_));

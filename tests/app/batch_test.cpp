@@ -70,6 +70,12 @@ TEST(Batch, ARowSaysWhatItsPromisesAreKeptWith) {
     EXPECT_LE(share.get<double>(), 1.0) << name;
   }
   EXPECT_FALSE(results.at(1).contains("kept")) << results[1];
+  // The option asks the same of every mission; lines of another confidence are planned again.
+  const std::string again =
+      "batch " + lines + " -q --nodes 20 --force --confidence 0.95 --out " + scratch.at("out");
+  ASSERT_EQ(run_program(scratch, again).code, 0);
+  for (const Json& line : lines_of(scratch.at("out/results.jsonl")))
+    EXPECT_GE(line.value("kept", 0.0), 0.95) << line;
 }
 
 /// Missions that share legs, and missions that differ from each other in one property.

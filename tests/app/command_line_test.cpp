@@ -462,6 +462,35 @@ TEST(CommandLine, NoLineIsWiderThanOneHundredAndTenColumns) {
   check(run_program(scratch, "front --points 4" + mission + scratch.at("f")).out, "front");
 }
 
+/// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.
+TEST(CommandLine, CheckTriesAMissionCoarsely) {
+  const ScratchDirectory scratch;
+  write_drive(scratch, 1);
+  const auto notes = [&](const std::string& options) {
+    return run_program(scratch, "check " + scratch.at("m.yaml") + options).err;
+  };
+  EXPECT_NE(notes("").find("tried coarsely: deadline on leg 1 (path)"), std::string::npos) << notes("");
+  EXPECT_EQ(notes(" --brief"), "");
+  write_drive(scratch, 30);
+  EXPECT_EQ(notes(""), "");
+  scratch.write(
+      "hall.pgm", "P2\n40 20\n255\n" + [] {
+        std::string cells;
+        for (int k = 0; k < 800; ++k) cells += k % 40 > 25 ? "0 " : "254 ";
+        return cells;
+      }());
+  scratch.write("map.yaml",
+                "image: hall.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                "occupied_thresh: 0.65\nfree_thresh: 0.2\n");
+  scratch.write("m.yaml",
+                "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: map.yaml\nstations:\n"
+                "  shelf: {x_m: 3.5, y_m: 1}\nstart: {x_m: 1, y_m: 1}\nlegs:\n  - {to: shelf}\n");
+  const std::string walled = notes("");
+  EXPECT_NE(walled.find("tried coarsely: path on leg 1 (shelf): the robot does not fit at the goal"),
+            std::string::npos)
+      << walled;
+}
+
 /// A folder with a plan is safe from the next one; a folder with a verdict is free for it.
 TEST(CommandLine, AnInfeasibleTryDoesNotBlockItsFolder) {
   const ScratchDirectory scratch;

@@ -38,7 +38,7 @@ jp.causes = function (by_cause) {
     }
   }
   const most = listed.reduce((most, cause) => Math.max(most, Math.abs(cause.J)), 0);
-  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-9 * most) cause.J = 0; });  // rounding errors
+  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-6 * most) cause.J = 0; });  // rounding errors
   const order = ["standby", "coulomb_friction", "viscous_friction", "copper", "kinetic", "not_recovered"];
   const place = (cause) => (order.includes(cause.name) ? order.indexOf(cause.name) : order.length);
   return listed.sort((a, b) => place(a) - place(b));

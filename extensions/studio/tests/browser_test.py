@@ -105,6 +105,8 @@ def check_keyboard(page):
 
 
 def check_widths(page):
+    title = page.run("return document.title")
+    assert title.startswith("mission · nomad_super_scout · joulepath studio"), title
     for pixels in WIDTHS:
         page.width(pixels)
         page.until("return true")

@@ -283,12 +283,14 @@ def check_texts(browser, folder):
     for words in ("1 to shelf <3> & co", "2 to dock", "Energy of a year", "Of the least energy: speed profile within 0.020"):
         assert words in text, f"{words!r} is not on the page"
     assert "0 to shelf" not in text and "(0.25\u202f% less)" in browser.run("return document.querySelector('.sentence').textContent")
+    far = re.findall(r"Leg (\d) .* above the bound over all paths", text)
+    assert far == ["1"], f"legs far above their bound: {far}"
     browser.open(f"{folder}/infeasible.html", "light")
     said = browser.run("return document.body.innerText")
     assert "on leg 2 to dock, missed by 2.3" in said.replace("2.300", "2.3") and said.count("missed by") == 1, said
     browser.open(f"{folder}/loss.html", "light")
     said = browser.run("return document.querySelector('.sentence').textContent").replace("\u202f", " ")
-    assert said == "These settings: 26.00 s, 425.00 J. Same path and time, optimal: 420.00 J (1.2 % less). The plan: 22.00 s, 402.00 J.", said
+    assert said == "These settings: 26.00 s, 525.00 J. Same path and time, optimal: 420.00 J (20 % less). The plan: 22.00 s, 402.00 J.", said
     browser.open(f"{folder}/front.html", "light")
     # In the middle between two points the curve lies below their chord by what the slopes at its ends say.
     worst = browser.run("""const {points} = joulepath.data.front, [a, b] = points, shown = joulepath.curve_of(points.map((p) => ({x: p.duration_s, y: p.energy_J, price: p.price_of_time_W})), (p) => -p.price);

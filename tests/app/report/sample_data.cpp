@@ -88,6 +88,8 @@ json plan() {
                 {"distance_m", 10 * share},
                 {"payload_kg", payload_kg},
                 {"price_of_time_W", 1.9},
+                {"path_gap_percent", 12},
+                {"far_above_path_bound", share > 0.5},
                 {"energy_by_cause_J", part}};
   };
   return {{"schema", "joulepath/plan/1"},
@@ -289,7 +291,7 @@ json loss() {
           {"parameters", {"controller_server.FollowPath.desired_linear_vel: 0.5"}},
           {"unused", json::array()},
           {"not_modelled", json::array()},
-          {"own_time", {{"duration_s", 26}, {"energy_J", 425}, {"optimum_J", 420}, {"lost_percent", 1.18}}},
+          {"own_time", {{"duration_s", 26}, {"energy_J", 525}, {"optimum_J", 420}, {"lost_percent", 20}}},
           {"plan_time", nullptr},
           {"broken_limit", ""}};
 }

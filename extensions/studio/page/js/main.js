@@ -64,6 +64,7 @@ function robot_panel() {
 }
 
 function start() {
+  document.title = [store.files.name, store.robot.name, `joulepath studio ${store.version_of_program || ""}`.trim()].filter(Boolean).join(" · ");
   const offline = !store.served ? h("p", {class: "soft small"}, answers.has_core() ? "Without the program no new routes are searched: ways follow their stops, and drawn paths can be edited." : "This page was written by a build without WebAssembly: it shows the plan and cannot change it.") : null;
   const diagnosis = diagnosis_panel();
   document.getElementById("app").replaceChildren(top_bar(),
