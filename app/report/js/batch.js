@@ -13,7 +13,7 @@ jp.draw_batch = function (data) {
   const shown = worst.slice(0, 15), compared = shown.some((one) => is_number(one.saving_percent)), saving = (cell) => (compared ? [cell] : []), promised = shown.some((one) => is_number(one.kept)), kept = (cell) => (promised ? [cell] : []);
   const histogram = (key, title, unit) => (spread[key] && spread[key].length ? h("div", {}, h("h3", {}, title), jp.histogram(spread[key], unit)) : null);
   const planned = count - without, meters = total.distance_m || 0;
-  const sentence = `${short(planned, 9)} of ${short(count, 9)} mission${count === 1 ? "" : "s"} have a plan` + (planned ? `: together ${with_unit(total.energy_Wh || 0, "Wh")} in ${with_unit((total.duration_s || 0) / 3600, "h", 3)}, ${with_unit(total.energy_J / meters, "J")} per meter.` : ".");
+  const sentence = `${short(planned, 9)} of ${short(count, 9)} mission${count === 1 ? "" : "s"} have a plan` + (planned ? `: together ${with_unit(total.energy_Wh || 0, "Wh")} in ${total.duration_s < 3600 ? with_unit(total.duration_s, "s") : with_unit(total.duration_s / 3600, "h", 3)}, ${with_unit(total.energy_J / meters, "J")} per meter.` : ".");
   jp.page(jp.header(data.title || "Batch", sentence, without ? `${without} without a plan` : "all planned", !without),
     h("div", {class: "tiles"}, jp.tile("Missions", short(count, 9), Object.entries(status).map(([one, n]) => `${n} ${words(one)}` + (one === "optimal" ? " on their paths" : "")).join(", ")), jp.tile("Energy", with_unit(total.energy_Wh || 0, "Wh"), with_unit(total.energy_J || 0, "J")),
       jp.tile("Distance", with_unit(total.distance_m || 0, "m")), jp.tile("Time", with_unit(total.duration_s || 0, "s"))),

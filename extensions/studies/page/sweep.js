@@ -60,17 +60,18 @@ function cloud_picture(sweep, p) {
 }
 
 /** The effect of a parameter: the mean of each level, and its share of the variance. */
-jp.sweep_effects = function (effects, unit) {
-  const shares = jp.bar_rows(effects.main.map((one) => ({label: one.parameter, value: one.share_of_variance, text: fraction(one.share_of_variance)})), {most: 1});
+jp.sweep_effects = function (sweep, effects, unit) {
+  const named = (name) => { const parameter = sweep.parameters.find((one) => one.name === name) || {name}; return [split_key(name).words, unit_of(parameter)].filter(Boolean).join(", "); };
+  const shares = jp.bar_rows(effects.main.map((one) => ({label: named(one.parameter), value: one.share_of_variance, text: fraction(one.share_of_variance)})), {most: 1});
   const means = effects.main.map((one) => {
     const values = one.levels.map((level) => level.mean), low = Math.min(...values), high = Math.max(...values);
-    return h("div", {}, h("h3", {}, one.parameter), jp.table(["level", {n: `mean, ${unit}`}, {n: "against the best level"}, {n: "designs"}],
-      one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high === low ? "–" : level.mean === low ? "best" : "+" + percent(100 * (level.mean / low - 1), 3)}, {n: String(level.designs)}])));
+    return h("div", {}, h("h3", {}, named(one.parameter)), jp.table(["level", {n: `mean, ${unit}`}, {n: "the best level takes less"}, {n: "designs"}],
+      one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high === low ? "–" : level.mean === low ? "best" : percent(100 * (1 - low / level.mean), 3)}, {n: String(level.designs)}])));
   });
   const pairs = effects.interactions.filter((one) => one.share_of_variance > 1e-4).slice(0, 10);
   const alone = effects.main.length < 2 ? null : h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects.");
   return [h("h3", {}, "Share of the variance"), shares,
-    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: fraction(one.share_of_variance)}])) : alone,
+    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.map(named).join(" and "), {n: fraction(one.share_of_variance)}])) : alone,
     h("div", {class: "columns"}, means)];
 };
 
@@ -86,8 +87,8 @@ jp.draw_sweep = function (data) {
     best ? h("div", {class: "tiles"}, jp.tile("Energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "best design, found by --optimize" : `best design: ${best.design}`), ...parameters.map((one) => jp.tile(split_key(one.name).words, [value_text(best.parameters[one.name]), unit_of(one)].filter(Boolean).join("\u202f"))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
     h("div", {class: "notice aside"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
-    sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
-    sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,
+    sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep, sweep.effects.energy_J, "J")) : null,
+    sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep, sweep.effects.duration_s, "s")) : null,
     reasons.length ? jp.section("Not counted", jp.table(["reason", {n: "plans"}], reasons.map(([reason, count]) => [words(reason), {n: String(count)}]))) : null);
 };
 
