@@ -4,12 +4,15 @@
 #include <cmath>
 #include <type_traits>
 
+#include "app/terminal.hpp"
 #include "model/printable.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {
+
+constexpr std::size_t kHelpColumn = 32;  ///< where descriptions begin
 
 std::vector<std::string> flags_of(const CLI::App& app) {
   std::vector<std::string> flags;
@@ -24,9 +27,9 @@ std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen
       "Energy-optimal trajectories, power models and sim-to-real diagnosis for differential-drive robots",
       "joulepath");
   app->require_subcommand(1);
-  app->get_formatter()->column_width(32);
+  app->get_formatter()->column_width(kHelpColumn);
   app->footer(
-      "Exit codes: 0 done, 1 infeasible or failed, 2 bad input or usage, 3 internal error, 4 environment, "
+      "Exit codes: 0 done, 1 infeasible or failed, 2 bad input or usage, 3 internal error, 4 environment,\n"
       "130 interrupted.\n"
       "joulepath COMMAND --help shows the options of a command, with examples.");
   for (const auto& command : commands) {
@@ -191,7 +194,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   ParsedCommandLine parsed;
   const auto app = make_parser(commands, parsed.command);
   app->set_version_flag("--version", "joulepath " + version);
-  if (argc < 2) return {.output = app->help(), .exit_code = kBadInput};
+  if (argc < 2) return {.output = folded(app->help(), kHelpColumn), .exit_code = kBadInput};
   if (std::string_view(argv[1]) == "help") {  // `help plan` is `plan --help`
     const char* const asked[] = {argv[0], argc > 2 ? argv[2] : "--help", "--help"};
     return parse_command_line(argc > 2 ? 3 : 2, asked, commands, version);
@@ -206,7 +209,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   } catch (const CLI::Success& success) {
     std::ostringstream output;
     const int code = app->exit(success, output, output);
-    return {.output = output.str(), .exit_code = code};
+    return {.output = folded(output.str(), kHelpColumn), .exit_code = code};
   } catch (const CLI::ExtrasError&) {
     return usage_error(unknown_argument(*app), *app);
   } catch (const CLI::ParseError& error) {

@@ -63,6 +63,23 @@ std::string figure(double value, int digits) {
   return buffer;
 }
 
+std::string folded(const std::string& text, std::size_t indent) {
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    std::string line = text.substr(from, end - from);
+    while (line.size() > kTerminalColumns) {
+      const std::size_t cut = line.find_last_of(" ,", kTerminalColumns - 1);
+      if (cut == std::string::npos || line.find_first_not_of(' ') > cut) break;
+      out += line.substr(0, cut + (line[cut] == ',')) + "\n";
+      line = std::string(indent, ' ') + line.substr(cut + 1);
+    }
+    out += line + (end < text.size() ? "\n" : "");
+    from = end + 1;
+  }
+  return out;
+}
+
 void Table::print(std::ostream& stream) const {
   std::vector<std::size_t> widths;
   const auto measure = [&](const std::vector<std::string>& cells) {
@@ -71,11 +88,20 @@ void Table::print(std::ostream& stream) const {
   };
   measure(header_);
   for (const auto& row : rows_) measure(row);
-  std::size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
-  for (const auto width : widths) total += width;
+  const auto full_width = [&] {
+    std::size_t sum = 0;
+    for (const auto width : widths) sum += width == 0 ? 0 : width + 2;
+    return sum < 2 ? 0 : sum - 2;
+  };
+  for (std::size_t i = 1; i < widths.size() && full_width() > kTerminalColumns; ++i)
+    if (std::all_of(rows_.begin(), rows_.end(),
+                    [i](const auto& row) { return row.size() <= i || row[i] == "0"; }))
+      widths[i] = 0;
+  const std::size_t total = full_width();
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text;
     for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (widths[i] == 0) continue;
       const std::string gap(widths[i] - width_of(cells[i]), ' ');
       text += (i ? "  " : "") + (i == 0 ? cells[i] + gap : gap + cells[i]);
     }

@@ -14,7 +14,14 @@ enum class Paint { error, warning, good, dim, bold };
 /// A number with this many significant digits, without an exponent for ordinary sizes.
 [[nodiscard]] std::string figure(double value, int digits = 4);
 
+/// Columns of a terminal that texts keep within, as far as their words allow.
+constexpr std::size_t kTerminalColumns = 110;
+
+/// Lines above that width are broken at spaces and commas; what follows is indented.
+[[nodiscard]] std::string folded(const std::string& text, std::size_t indent);
+
 /// A plain table: first column left, the others right; widths from the content (UTF-8 counts by character).
+/// A table that would be too wide leaves out its columns of zeros.
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : header_(std::move(header)) {}

@@ -17,6 +17,7 @@ struct FileSummary {
   std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
   Isolability isolability{};             ///< of a dataset whose channels are sound
   std::string proposal{};                ///< a proposed file: the dataset of a bag
+  double begins_s{};                     ///< of a bag: the stamp of its first message; 0: unknown
   bool proposes{};  ///< files of this kind may have a proposal, which goes to standard output alone
 };
 

@@ -33,6 +33,7 @@ class BatchCommand : public Command {
         .existing_path();
     add_job_options(line, options_, "results.jsonl, timings.jsonl, report.html");
     add_plan_options(line, plan_);
+    add_confidence(line, confidence_);
     line.flag("--path-bound", plan_.path_bound, "bound the energy over all paths (takes longer)");
     line.flag("--baselines", plan_.baselines, "compare every mission with trapezoids (takes longer)");
   }
@@ -42,7 +43,8 @@ class BatchCommand : public Command {
     std::vector<MissionItem> items = mission_items(source_);
     OutputDirectory out = job_output(options_, run, kBatchFiles);
     plan_.solver = SolverChoice::fast;
-    MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache);
+    MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache,
+                     confidence_);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
     const std::string title = printable(std::filesystem::path(source_).filename().string());
@@ -60,6 +62,7 @@ class BatchCommand : public Command {
  private:
   std::string source_{};
   JobOptions options_{};
+  std::optional<double> confidence_{};
   PlanOptions plan_{.baselines = false};
 };
 

@@ -100,7 +100,8 @@ class Calibrate : public Command {
     const Dataset dataset = read_dataset_or_log(dataset_, {options_.untrusted}, robot_);
     const CalibrationResult result =
         calibrate(dataset, method_ == "steady" ? CalibrationMethod::steady : CalibrationMethod::full);
-    if (!out_.empty()) write_output_file(out_, robot_text(result.robot), options_.force);
+    if (!out_.empty())
+      write_output_file(out_, robot_text_like(dataset.robot_file, result.robot), options_.force);
     if (options_.json) {
       std::cout << result_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
       return kDone;

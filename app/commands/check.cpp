@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -8,10 +9,14 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/values/verdict_text.hpp"
 #include "scenarios/any_file.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/result_files/write_diagnosis.hpp"
+#include "scenarios/text/significant.hpp"
 
 namespace joulepath {
 namespace {
@@ -31,6 +36,24 @@ nlohmann::ordered_json error_json(const ConfigError& error) {
           {"hint", d.hint},      {"message", error.what()}};
 }
 
+/// What a coarse plan of a mission runs into: a start or a stop without room, a place that no way leads to, a
+/// deadline that is too early. Its paths are not refined, so a plan may arrive a little earlier.
+std::string coarse_verdict(const std::string& file, const ReadOptions& reading) {
+  MissionRequest mission = read_mission(file, reading);
+  mission.objective.confidence.reset();
+  const MissionWorld world = read_world(mission, reading);
+  if (!world.robot.limits) return "";
+  const Plan plan = plan_mission(mission, world,
+                                 {.solver = SolverChoice::fast,
+                                  .nodes = 40,
+                                  .steps = {.refinement = false},
+                                  .baselines = false,
+                                  .draft = true});
+  if (!plan.infeasibility) return "";
+  const auto& [reason, leg, to, arc_length_m, state] = *plan.infeasibility;
+  return "tried coarsely: " + reason.constraint + " on leg " + leg_text(leg, to) + ": " + plan.message;
+}
+
 class Check : public Command {
  public:
   Check()
@@ -45,7 +68,10 @@ class Check : public Command {
     line.option("FILE", files_, checked_kinds()).required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");
-    line.flag("--brief", brief_, "check the data of a dataset only, not which effects its runs tell apart");
+    line.flag(
+        "--brief", brief_,
+        "do not try a mission coarsely; check the data of a dataset only, not which effects its runs tell "
+        "apart");
     add_common_flags(line, options_, "qjfu");
   }
 
@@ -54,7 +80,10 @@ class Check : public Command {
     auto results = nlohmann::ordered_json::array();
     for (const auto& file : files_) {
       try {
-        const FileSummary summary = read_any_file(file, kind_, {options_.untrusted}, brief_);
+        FileSummary summary = read_any_file(file, kind_, {options_.untrusted}, brief_);
+        if (summary.kind == "mission" && !brief_)
+          if (std::string verdict = coarse_verdict(file, {options_.untrusted}); !verdict.empty())
+            summary.notes.push_back(std::move(verdict));
         results.push_back(summary_json(file, summary));
         if (!options_.json) tell(file, summary);
         if (!summary.data_checks.empty() && code == kDone) code = kInfeasibleOrFailed;
@@ -66,7 +95,7 @@ class Check : public Command {
           std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
       }
     }
-    if (!options_.quiet && !options_.json) std::cout << printable_text(proposal_);
+    if (!options_.quiet && !options_.json) std::cout << printable_text(proposed());
     if (options_.json)
       std::cout << results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return code;
@@ -98,17 +127,31 @@ class Check : public Command {
   }
 
   /// One dataset file for all logs with the columns of the first.
-  void propose(const std::string& file, const std::string& proposal) {
+  void propose(const std::string& file, const FileSummary& summary) {
     static constexpr std::string_view kRuns = "\nruns:\n";
-    const auto begin_of_runs = proposal.find(kRuns) + kRuns.size();
-    if (proposal_.empty())
-      proposal_ = proposal;
-    else if (proposal_.starts_with(proposal.substr(0, begin_of_runs)))
-      proposal_ += proposal.substr(begin_of_runs);
+    const auto begin_of_runs = summary.proposal.find(kRuns) + kRuns.size();
+    const std::string head = summary.proposal.substr(0, begin_of_runs);
+    if (proposed_runs_.empty()) proposed_head_ = head;
+    if (proposed_head_ == head)
+      proposed_runs_.emplace_back(summary.proposal.substr(begin_of_runs), summary.begins_s);
     else
       std::cerr
           << "  note: the topics of " << printable(file)
           << " differ from those of the first file: its dataset file is proposed by a check of it alone\n";
+  }
+
+  /// Runs of one day count their time from the first one's first stamp: heating needs it.
+  [[nodiscard]] std::string proposed() const {
+    std::string text = proposed_head_;
+    double first_s = 0;
+    for (const auto& [run, begins_s] : proposed_runs_)
+      if (begins_s > 0 && (first_s == 0 || begins_s < first_s)) first_s = begins_s;
+    for (const auto& [run, begins_s] : proposed_runs_) {
+      text += run;
+      if (proposed_runs_.size() > 1 && begins_s > 0)
+        text += "    start_time_s: " + significant_text(std::round(begins_s - first_s)) + "\n";
+    }
+    return text;
   }
 
   /// Where a file is proposed, the status goes to standard error.
@@ -121,13 +164,14 @@ class Check : public Command {
       std::cout << "  " << printable(data_check_text(check)) << '\n';
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
-    if (!summary.proposal.empty()) propose(file, summary.proposal);
+    if (!summary.proposal.empty()) propose(file, summary);
   }
 
   std::vector<std::string> files_{};
   std::string kind_{};
   std::string repair_{};
-  std::string proposal_{};
+  std::string proposed_head_{};
+  std::vector<std::pair<std::string, double>> proposed_runs_{};  ///< with the stamp of their first message
   bool brief_{};
   CommonOptions options_{};
 };

@@ -9,7 +9,7 @@
 #include "app/plan/plan_summary.hpp"
 #include "app/plan/profile_columns.hpp"
 #include "app/program_parts.hpp"
-#include "app/report/report.hpp"
+#include "app/report/plan_report.hpp"
 #include "app/terminal.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/baselines/comparison.hpp"
@@ -37,18 +37,13 @@ BaselineTotal total_of(const Plan& plan) {
 }
 
 void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared) {
-  std::vector<std::string> header = baseline_header();
-  header.emplace_back();
-  Table table(header);
-  const auto row = [&](const BaselineTotal& total) {
-    std::vector<std::string> cells = baseline_cells(total);
-    cells.push_back(total.reason);
-    table.row(cells);
-  };
-  row(total_of(plan));
+  Table table(baseline_header());
+  table.row(baseline_cells(total_of(plan)));
   table.rule();
-  for (const ComparedProfile& profile : compared) row(profile.total);
+  for (const ComparedProfile& profile : compared) table.row(baseline_cells(profile.total));
   table.print(std::cout);
+  for (const auto& [total, profiles] : compared)
+    if (!total.feasible) std::cout << total.name << ": " << total.reason << "\n";
 }
 
 std::string compare_examples(const PlanComparisons& comparisons) {
@@ -86,7 +81,8 @@ class CompareCommand : public Command {
       return kInfeasibleOrFailed;
     }
     for (const auto& comparison : comparisons_)
-      if (comparison->is_asked()) return comparison->run(plan, options_, out, kResult);
+      if (comparison->is_asked())
+        return comparison->run(plan, report::mission_extras(plan, mission, world), options_, out, kResult);
     const std::vector<ComparedProfile> compared = compare_baselines(plan);
     nlohmann::json result = {
         {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
@@ -94,8 +90,12 @@ class CompareCommand : public Command {
     for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
     if (writes_analysis(options_))
       write_analysis(out, kResult, result,
-                     report::compare_report_html(result, motions(plan, compared), plan.mission));
-    if (prints_analysis_table(options_, result)) print_table(plan, compared);
+                     report::compare_report_html(result, motions(plan, compared),
+                                                 report::mission_extras(plan, mission, world)));
+    if (prints_analysis_table(options_, result)) {
+      print_table(plan, compared);
+      print_analysis_place(options_);
+    }
     return kDone;
   }
 

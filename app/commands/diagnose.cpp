@@ -170,7 +170,9 @@ class Diagnose : public Command {
     const Diagnosis& diagnosis = results.diagnosis;
     out.write("diagnosis.json", signals_ ? results.json_with_signals() : results.json);
     out.write("report.html", results.report());
-    if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
+    if (diagnosis.corrected_robot)
+      out.write("robot_corrected.yaml",
+                robot_text_like(results.dataset.robot_file, *diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml",
                 corrected_dataset_text(results.dataset, diagnosis.corrected_instruments, out_));
@@ -180,7 +182,7 @@ class Diagnose : public Command {
     if (common_.json)
       std::cout << results.json;
     else if (!common_.quiet)
-      print_summary(std::cout, diagnosis), std::cout << more.str();
+      print_summary(std::cout, diagnosis), std::cout << more.str() << "results in " << out.path() << '\n';
     const bool gap = diagnosis.verdict != Verdict::no_gap || !diagnosis.runs_apart.empty();
     return fail_on_gap_ && gap ? kInfeasibleOrFailed : kDone;
   }

@@ -9,7 +9,7 @@
 #include "app/plan/plan_analysis.hpp"
 #include "app/plan/plan_options.hpp"
 #include "app/plan/plan_summary.hpp"
-#include "app/report/report.hpp"
+#include "app/report/plan_report.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
@@ -89,7 +89,7 @@ class FrontCommand : public Command {
     for (std::size_t k : chosen(front.points.size(), baseline_points_))
       beside.push_back({k, baselines_at(front.points[k], stretches, rest)});
     for (FrontPoint& point : front.points) point = sum_of(point, rest);
-    show(front, sure, beside, plan.mission, out);
+    show(front, sure, beside, report::mission_extras(plan, mission, world), out);
     return kDone;
   }
 
@@ -165,9 +165,9 @@ class FrontCommand : public Command {
   }
 
   void show(const Front& front, const std::optional<SureFront>& sure, const std::vector<Beside>& beside,
-            const std::string& title, OutputDirectory& out) const {
+            const report::MissionExtras& extras, OutputDirectory& out) const {
     nlohmann::json result = {{"schema", "joulepath/front/1"},
-                             {"mission", title},
+                             {"mission", extras.title},
                              {"points", nlohmann::json::array()},
                              {"baselines", nlohmann::json::array()}};
     for (const FrontPoint& point : front.points)
@@ -176,7 +176,7 @@ class FrontCommand : public Command {
       for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
     if (sure) result["confidence"] = sure_json(*sure);
     if (writes_analysis(options_))
-      write_analysis(out, kResult, result, report::front_report_html(result, {}, title));
+      write_analysis(out, kResult, result, report::front_report_html(result, extras));
     if (prints_analysis_table(options_, result)) {
       print_points(front.points);
       if (sure) {
@@ -185,6 +185,7 @@ class FrontCommand : public Command {
         print_points(sure->points);
       }
       print_baselines(front, beside);
+      print_analysis_place(options_);
     }
   }
 
@@ -207,31 +208,14 @@ class FrontCommand : public Command {
     table.print(std::cout);
   }
 
-  /// A row per profile, a column per point.
   static void print_baselines(const Front& front, const std::vector<Beside>& beside) {
-    if (beside.empty()) return;
-    std::vector<std::string> header{"energy J (above the optimum in the same time)"}, optimum{"optimum"};
     for (const auto& [k, baselines] : beside) {
-      header.push_back(figure(front.points[k].duration_s, 5) + " s");
-      optimum.push_back(figure(front.points[k].energy_J, 6));
+      std::cout << "\nat " << figure(front.points[k].duration_s, 5) << " s, least energy "
+                << figure(front.points[k].energy_J, 6) << " J:\n";
+      Table table(baseline_header());
+      for (const BaselineTotal& total : baselines) table.row(baseline_cells(total));
+      table.print(std::cout);
     }
-    Table table(header);
-    table.row(optimum);
-    for (std::size_t i = 0; i < beside.front().baselines.size(); ++i) {
-      std::vector<std::string> cells{beside.front().baselines[i].name};
-      for (const auto& [k, baselines] : beside) cells.push_back(energy_cell(baselines[i]));
-      table.row(cells);
-    }
-    std::cout << "\n";
-    table.print(std::cout);
-  }
-
-  static std::string energy_cell(const BaselineTotal& total) {
-    if (!total.feasible) return "-";
-    const double more = 100 * (total.energy_J / total.optimum_J - 1);
-    if (!std::isfinite(more)) return figure(total.energy_J, 6);
-    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" +
-           (total.late() ? ", " + later_text(total) : "") + ")";
   }
 
   static constexpr const char* kResult = "front.json";

@@ -1,5 +1,7 @@
 #include <chrono>
+#include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -32,6 +34,16 @@ std::string plan_examples() {
   return text + "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
 }
 
+/// Whether a directory holds the verdict of an earlier try instead of a plan: the next one may replace it.
+bool holds_no_plan(const std::string& directory) {
+  std::ifstream file(directory + "/plan.json");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object()) return false;
+  const std::string status = json.value("status", "");
+  return status == solve_status_name(SolveStatus::infeasible) ||
+         status == solve_status_name(SolveStatus::failed);
+}
+
 class PlanCommand : public Command {
  public:
   PlanCommand()
@@ -57,6 +69,10 @@ class PlanCommand : public Command {
                 "baselines, path_bound (several: with commas)")
         .comma_separated()
         .one_of({"corners", "routes", "stops", "refinement", "baselines", "path_bound"});
+    line.option("--missions-per-day", operation_.missions_per_day, "report.html shows the energy of a year")
+        .positive();
+    line.option("--price-per-kWh", operation_.price_per_kWh, "with --missions-per-day: its price, too")
+        .not_negative();
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
@@ -68,7 +84,7 @@ class PlanCommand : public Command {
   int run() override {
     const Clock::time_point start = Clock::now();
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "profile.csv", "timing.json", "report.html"},
-                        common_.force);
+                        common_.force || holds_no_plan(out_));
     const ReadOptions reading{.untrusted = common_.untrusted};
     MissionRequest mission = read_told_source(source_, reading, common_.quiet);
     if (confidence_) mission.objective.confidence = confidence_;
@@ -94,7 +110,7 @@ class PlanCommand : public Command {
       out.write("trajectory.csv", results.trajectory_text());
       out.write("profile.csv", results.profile_text());
     }
-    out.write("report.html", results.report());
+    out.write("report.html", results.report(operation_));
     out.commit();
     if (common_.json)
       std::cout << results.json;
@@ -117,6 +133,7 @@ class PlanCommand : public Command {
 
   MissionSource source_{};
   std::string out_{};
+  report::Operation operation_{};
   std::string solver_{"ipopt"};
   std::string cache_{};
   std::vector<std::string> without_{};

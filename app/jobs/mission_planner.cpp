@@ -5,6 +5,7 @@
 
 #include "app/build_id.hpp"
 #include "app/jobs/content_hash.hpp"
+#include "model/number_text.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
@@ -43,6 +44,10 @@ Json plan_line(const Plan& plan) {
     if (baseline.name == "trapezoid_best_tuned" && baseline.feasible)
       json["saving_percent"] = saving_percent(baseline.optimum_J, baseline.energy_J);
   if (plan.battery) json["battery_end_fraction"] = plan.battery->end_fraction;
+  if (plan.confidence) {
+    json["kept"] = plan.confidence->kept;
+    for (const Promise& promise : plan.confidence->promises) json["promises"][promise.name] = promise.kept;
+  }
   return json;
 }
 
@@ -74,11 +79,13 @@ std::map<std::string, std::string> MissionPlanner::files_read() const {
 }
 
 std::map<std::string, std::string> MissionPlanner::options() const {
-  return {{"--nodes", std::to_string(options_.nodes)},
-          {"--seed", std::to_string(options_.seed)},
-          {"--baselines", options_.baselines ? "yes" : "no"},
-          {"--path-bound", options_.path_bound ? "yes" : "no"},
-          {"--untrusted", reading_.untrusted ? "yes" : "no"}};
+  std::map<std::string, std::string> given{{"--nodes", std::to_string(options_.nodes)},
+                                           {"--seed", std::to_string(options_.seed)},
+                                           {"--baselines", options_.baselines ? "yes" : "no"},
+                                           {"--path-bound", options_.path_bound ? "yes" : "no"},
+                                           {"--untrusted", reading_.untrusted ? "yes" : "no"}};
+  if (confidence_) given["--confidence"] = number_text(*confidence_);
+  return given;
 }
 
 std::string digest_of(const std::vector<MissionItem>& items) {
@@ -91,6 +98,7 @@ std::string MissionPlanner::fingerprint(const MissionItem& item, const MissionVa
   ContentHash hash;
   for (const std::string& part : {std::string(kBuildId), item.name, item.text, text_of(options_)})
     hash.mix(part);
+  if (confidence_) hash.mix(number_text(*confidence_));
   const auto mix_file = [&](const std::string& file) { hash.mix(file + "=" + content_digest(file)); };
   if (item.text.empty()) mix_file(item.file);
   visit_files_read_by(mission_of(item, variant), reading_, mix_file);
@@ -103,6 +111,7 @@ MissionRequest MissionPlanner::mission_of(const MissionItem& item, const Mission
   const Document document = document_of(item);
   MissionRequest mission = variant != nullptr ? variant->mission(document) : mission_from(document, reading_);
   if (variant == nullptr && !item.text.empty() && !document.root().has("name")) mission.name = item.name;
+  if (confidence_) mission.objective.confidence = confidence_;
   return mission;
 }
 

@@ -34,9 +34,10 @@ class MissionVariant {
 /// answers about equal legs are shared as well. Safe to call from several threads.
 class MissionPlanner {
  public:
+  /// `confidence`: instead of the missions' own.
   MissionPlanner(const PlanOptions& options, const ReadOptions& reading,
-                 const CacheChoice& cache = {.none = true})
-      : options_(options), reading_(reading), answers_(answer_cache(cache)) {}
+                 const CacheChoice& cache = {.none = true}, std::optional<double> confidence = {})
+      : options_(options), reading_(reading), confidence_(confidence), answers_(answer_cache(cache)) {}
 
   /// The result line: `line` with the plan's figures, or the reason why there is none.
   [[nodiscard]] JobResult plan(const MissionItem& item, std::size_t index, nlohmann::ordered_json line,
@@ -63,6 +64,7 @@ class MissionPlanner {
 
   PlanOptions options_;
   ReadOptions reading_;
+  std::optional<double> confidence_;
   std::unique_ptr<AnswerCache> answers_;
   std::mutex mutex_{};
   std::map<std::string, std::unique_ptr<Place>> places_{};
@@ -74,8 +76,8 @@ class MissionPlanner {
 class MissionJobs : public JobList {
  public:
   MissionJobs(std::vector<MissionItem> items, const PlanOptions& options, const ReadOptions& reading,
-              const CacheChoice& cache = {.none = true})
-      : items_(std::move(items)), planner_(options, reading, cache) {}
+              const CacheChoice& cache = {.none = true}, std::optional<double> confidence = {})
+      : items_(std::move(items)), planner_(options, reading, cache, confidence) {}
 
   [[nodiscard]] std::size_t size() const override { return items_.size(); }
   [[nodiscard]] JobResult plan(std::size_t index) override;

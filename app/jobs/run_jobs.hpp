@@ -65,7 +65,7 @@ struct JobRun {
   bool force{};
   bool quiet{};
   std::string noun{"missions"};  ///< a job, for the progress
-  const JobPart* part{};  ///< null: the whole list
+  const JobPart* part{};         ///< null: the whole list
   Shard shard{};
   std::map<std::size_t, std::string> quarantine{};  ///< jobs that are not run, with the reason
 };

@@ -62,12 +62,12 @@ def main():
     def said(*arguments):
         return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
 
-    commands = re.findall(r"^  ([a-z_]+) {2,}(.*)$", said("--help").split("Subcommands:")[1], re.MULTILINE)
+    commands = re.findall(r"^  ([a-z_]+) {2,}(.*(?:\n {20,}.*)*)$", said("--help").split("Subcommands:")[1], re.MULTILINE)
     with open(out, "w", encoding="utf-8") as page:
         page.write(HEAD.format(version=said("--version").split(" (")[0].strip()))
         for name, says in commands:
             details = said(name, "--help").strip()
-            page.write(f".SS {name}\n{escaped(says)}\n.PP\n.nf\n{escaped(details)}\n.fi\n")
+            page.write(f".SS {name}\n{escaped(' '.join(says.split()))}\n.PP\n.nf\n{escaped(details)}\n.fi\n")
         page.write(TAIL)
 
 

@@ -10,7 +10,7 @@ void print_loss(std::ostream& stream, const Plan& plan, const ControllerLoss& lo
   Table table({"", "s", "J", "optimum J", "lost J", "lost"});
   const auto row = [&](const std::string& name, const LossAtTime& at) {
     table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
-               figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
+               figure(at.lost_J(), 3), figure(at.lost_percent(), 3) + " %"});
   };
   table.row({"plan", figure(plan.duration_s), figure(plan.energy.total_J(), 6), "", "", ""});
   row("controller, its own time", loss.own_time);

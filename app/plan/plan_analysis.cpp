@@ -21,6 +21,10 @@ OutputDirectory analysis_output(const AnalysisOptions& options, const std::strin
   return {options.out, {result_file, "report.html"}, options.common.force};
 }
 
+void print_analysis_place(const AnalysisOptions& options) {
+  if (writes_analysis(options)) std::cout << "results in " << options.out << "\n";
+}
+
 void write_analysis(OutputDirectory& out, const std::string& result_file, const nlohmann::json& result,
                     std::string report_html) {
   out.write(result_file, result.dump(2) + "\n");

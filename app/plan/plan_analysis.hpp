@@ -28,6 +28,9 @@ void add_analysis_options(CommandLine& line, AnalysisOptions& options, const std
 [[nodiscard]] OutputDirectory analysis_output(const AnalysisOptions& options, const std::string& result_file);
 [[nodiscard]] bool writes_analysis(const AnalysisOptions& options);
 
+/// Says below the tables where the results are, if some were written.
+void print_analysis_place(const AnalysisOptions& options);
+
 /// Writes the result and its report.
 void write_analysis(OutputDirectory& out, const std::string& result_file, const nlohmann::json& result,
                     std::string report_html);

@@ -24,8 +24,8 @@ std::string PlanResults::profile_text() const {
                                    {"linear_jerk_m_s3", &nodes.linear_jerk_m_s3}});
 }
 
-std::string PlanResults::report() const {
-  return report::plan_report(plan, json, trajectory, mission, world);
+std::string PlanResults::report(const report::Operation& operation) const {
+  return report::plan_report(plan, json, trajectory, mission, world, operation);
 }
 
 }  // namespace joulepath

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/report/report.hpp"
 #include "planner/values/mission_request.hpp"
 #include "planner/values/plan.hpp"
 
@@ -16,9 +17,9 @@ struct PlanResults {
   Trajectory trajectory{};  ///< of a valid plan
   std::string json{};       ///< plan.json
 
-  [[nodiscard]] std::string trajectory_text() const;  ///< trajectory.csv
-  [[nodiscard]] std::string profile_text() const;     ///< profile.csv
-  [[nodiscard]] std::string report() const;           ///< report.html
+  [[nodiscard]] std::string trajectory_text() const;                                ///< trajectory.csv
+  [[nodiscard]] std::string profile_text() const;                                   ///< profile.csv
+  [[nodiscard]] std::string report(const report::Operation& operation = {}) const;  ///< report.html
 };
 
 /// The results of a plan of a mission.

@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <ostream>
+#include <sstream>
 
 #include "app/terminal.hpp"
-#include "model/watt_hours.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "planner/values/verdict_text.hpp"
 #include "scenarios/mission_files/plan_file.hpp"
 
 namespace joulepath {
@@ -17,7 +18,9 @@ std::string kg(const PayloadAlongLeg& payload) {
 }
 
 /// A sum that is zero by physics (kinetic energy from rest to rest) is shown as zero, without rounding noise.
-double without_noise(double energy_J) { return std::abs(energy_J) < 1e-6 ? 0.0 : energy_J; }
+double without_noise(double value, double whole) {
+  return std::abs(value) < 1e-6 * std::abs(whole) ? 0.0 : value;
+}
 
 double effects_J(const EnergyByCause& energy) {
   double sum_J = 0.0;
@@ -26,25 +29,24 @@ double effects_J(const EnergyByCause& energy) {
 }
 
 std::vector<std::string> energy_cells(const EnergyByCause& energy) {
-  return {figure(energy.copper_J),           figure(energy.coulomb_friction_J),
-          figure(energy.viscous_friction_J), figure(without_noise(energy.kinetic_J)),
-          figure(energy.not_recovered_J),    figure(effects_J(energy)),
-          figure(energy.standby_J),          figure(energy.total_J(), 5)};
+  const auto joules = [&](double value_J) { return figure(without_noise(value_J, energy.total_J())); };
+  return {joules(energy.copper_J),  joules(energy.coulomb_friction_J), joules(energy.viscous_friction_J),
+          joules(energy.kinetic_J), joules(energy.not_recovered_J),    joules(effects_J(energy)),
+          joules(energy.standby_J), figure(energy.total_J(), 5)};
 }
 
 void print_legs(std::ostream& stream, const Plan& plan) {
   Table table({"leg", "payload kg", "m", "s", "copper", "Coulomb", "viscous", "kinetic", "not recov.",
-               "effects", "standby", "total J", "Wh"});
+               "effects", "standby", "total J"});
   const auto row = [&](const std::string& name, const std::string& payload, double distance_m,
                        double duration_s, const EnergyByCause& energy) {
     std::vector<std::string> cells{name, payload, figure(distance_m), figure(duration_s)};
     for (std::string& cell : energy_cells(energy)) cells.push_back(std::move(cell));
-    cells.push_back(figure(energy.total_J() / kJoulesPerWh, 4));
     table.row(std::move(cells));
   };
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const LegPlan& leg = plan.legs[k];
-    row(std::to_string(k) + " " + leg.to, kg(leg.payload), leg.distance_m, leg.duration_s + leg.dwell_s,
+    row(std::to_string(k + 1) + " " + leg.to, kg(leg.payload), leg.distance_m, leg.duration_s + leg.dwell_s,
         leg.energy);
   }
   table.rule();
@@ -72,7 +74,7 @@ void print_path_bound(std::ostream& stream, const Plan& plan) {
   if (!plan.path_bound) return;
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
     if (const LegPlan& leg = plan.legs[k]; far_above_bound(leg))
-      stream << "note: leg " << k << " lies "
+      stream << "note: leg " << leg_text(k, leg.to) << " lies "
              << figure(path_gap_percent(*leg.path_bound, leg.energy.total_J()), 3)
              << " % above the bound over all paths: try another --seed or a stop on the way\n";
   const PathBound& bound = *plan.path_bound;
@@ -122,9 +124,11 @@ void print_confidence(std::ostream& stream, const Plan& plan) {
          << figure(100 * account.kept_at_least, 4) << " %): " << promises_text(account) << "\n";
   if (account.limit_shares.empty() && account.reserve_margin == 0) return;
   stream << "  confidence changes the energy by "
-         << figure(plan.energy.total_J() - account.energy_without_J, 3) << " J and the time by "
-         << figure(plan.duration_s - account.duration_without_s, 3) << " s; without margins "
-         << figure(100 * account.kept_without, 3) << " % of robots keep their promises\n";
+         << figure(without_noise(plan.energy.total_J() - account.energy_without_J, plan.energy.total_J()), 3)
+         << " J and the time by "
+         << figure(without_noise(plan.duration_s - account.duration_without_s, plan.duration_s), 3)
+         << " s; without margins\n  " << figure(100 * account.kept_without, 3)
+         << " % of robots keep their promises\n";
 }
 
 /// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and
@@ -139,7 +143,7 @@ std::string relaxed_figure(const std::string& key, double value) {
 
 void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict) {
   const Infeasibility& reason = verdict.reason;
-  stream << "infeasible: " << reason.constraint << " on leg " << verdict.leg << " at "
+  stream << "infeasible: " << reason.constraint << " on leg " << leg_text(verdict.leg, verdict.to) << " at "
          << figure(verdict.arc_length_m) << " m (x " << figure(reason.x_m) << ", y " << figure(reason.y_m)
          << "), by " << figure(reason.amount) << " " << reason.unit << "\n";
   if (!reason.message.empty()) stream << "  " << reason.message << "\n";
@@ -148,8 +152,6 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
 }
 
 }  // namespace
-
-std::string later_text(const BaselineTotal& baseline) { return figure(baseline.later_s, 2) + " s later"; }
 
 std::vector<std::string> baseline_header() {
   return {"same path, own time", "s", "total J", "least J", "saved", "motion J", "saved of motion"};
@@ -160,7 +162,7 @@ std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
   const double saved = saving_percent(baseline.optimum_J, baseline.energy_J),
                saved_of_motion = saving_percent(baseline.optimum_motion_J, baseline.motion_energy_J);
   const auto percent = [](double value) { return std::isfinite(value) ? figure(value, 3) + " %" : "-"; };
-  return {baseline.late() ? baseline.name + ", " + later_text(baseline) : baseline.name,
+  return {baseline.late() ? baseline.name + ", " + figure(baseline.later_s, 2) + " s later" : baseline.name,
           figure(baseline.duration_s),
           figure(baseline.energy_J, 5),
           figure(baseline.optimum_J, 5),
@@ -169,15 +171,16 @@ std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
           percent(saved_of_motion)};
 }
 
-void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {
+void print_plan_summary(std::ostream& out, const Plan& plan, const std::string& directory) {
+  std::ostringstream stream;
   if (plan.infeasibility) {
     print_infeasibility(stream, *plan.infeasibility);
   } else if (plan.status == SolveStatus::failed) {
     stream << "failed: " << plan.message << "\n";
   } else {
-    print_legs(stream, plan);
-    stream << "\n";
-    print_baselines(stream, plan);
+    print_legs(out, plan);
+    out << "\n";
+    print_baselines(out, plan);
     stream << "\n"
            << optimality_text(plan) << ", replay " << figure(plan.replay_energy_J, 6)
            << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
@@ -187,7 +190,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
     if (plan.confidence) print_confidence(stream, plan);
     stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }
-  stream << "results in " << directory << "\n";
+  out << folded(stream.str(), 2) << "results in " << directory << "\n";
 }
 
 }  // namespace joulepath

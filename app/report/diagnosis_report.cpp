@@ -133,6 +133,7 @@ std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diag
                              const Dataset& dataset) {
   DiagnosisExtras extras;
   extras.title = std::filesystem::path(dataset.file).filename().string();
+  extras.subtitle = dataset.robot.name;
   extras.runs = run_comparisons(diagnosis, dataset);
   return diagnosis_report_html(nlohmann::json::parse(diagnosis_json), extras);
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/report/report.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/motion/motion_energy.hpp"
 
@@ -58,20 +57,48 @@ std::vector<Saving> savings_of(const Plan& plan) {
   return list;
 }
 
+/// At most about 1500 of the times, for bands.
+std::vector<double> evenly(const std::vector<double>& times_s) {
+  std::vector<double> chosen;
+  const std::size_t stride = 1 + times_s.size() / 1500;
+  for (std::size_t k = 0; k < times_s.size(); k += stride) chosen.push_back(times_s[k]);
+  if (chosen.back() < times_s.back()) chosen.push_back(times_s.back());
+  return chosen;
+}
+
 std::string file_name(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
-}  // namespace
-
-std::string plan_report(const Plan& plan, const std::string& plan_json, const Trajectory& trajectory,
-                        const MissionRequest& mission, const MissionWorld& world) {
-  PlanExtras extras;
+template <class Extras>
+Extras named_extras(const MissionRequest& mission, const MissionWorld& world) {
+  Extras extras;
   extras.title = mission.name;
   extras.subtitle = world.robot.name + (mission.map_file.empty() ? "" : " · " + file_name(mission.map_file));
   if (world.map) extras.map = map_picture(*world.map, world.keepout ? &*world.keepout : nullptr);
+  return extras;
+}
+
+}  // namespace
+
+MissionExtras mission_extras(const Plan& plan, const MissionRequest& mission, const MissionWorld& world) {
+  auto extras = named_extras<MissionExtras>(mission, world);
+  Columns columns = columns_of(plan_trajectory(plan, make_plant(world.robot)));
+  for (const char* name : {"time_s", "position_x_m", "position_y_m", "heading_rad", "linear_speed_m_s",
+                           "angular_speed_rad_s", "leg"})
+    if (auto column = columns.extract(name)) extras.way.insert(std::move(column));
+  for (const LegPlan& leg : plan.legs) extras.goals.push_back(leg.to);
+  return extras;
+}
+
+std::string plan_report(const Plan& plan, const std::string& plan_json, const Trajectory& trajectory,
+                        const MissionRequest& mission, const MissionWorld& world,
+                        const Operation& operation) {
+  auto extras = named_extras<PlanExtras>(mission, world);
+  extras.operation = operation;
   extras.limits = world.robot.limits;
   Columns columns = columns_of(trajectory);
   if (!columns.empty()) {
     columns.merge(limit_columns(world.robot, columns));
+    extras.bands = plan_bands(plan, make_plant(world.robot), evenly(trajectory.time_s));
     extras.savings = savings_of(plan);
     extras.overlays = baseline_motions(plan, make_plant(world.robot));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "app/report/plain_tables.hpp"
 #include "diagnosis/values/verdict.hpp"
 #include "model/limit_table.hpp"
+#include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
 
@@ -72,6 +75,20 @@ json json_of(const Limits& limits) {
   return object;
 }
 
+/// The ends of the 95 % interval along the plan.
+void add_band(const char* name, const std::optional<PlanBand>& band, json& data) {
+  if (!band) return;
+  std::vector<double> low = band->value, high = band->value;
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    low[k] -= kNormal95 * band->sigma[k];
+    high[k] += kNormal95 * band->sigma[k];
+  }
+  data["bands"][name] = {{"time_s", json_of(band->time_s)},
+                         {"value", json_of(band->value)},
+                         {"low", json_of(low)},
+                         {"high", json_of(high)}};
+}
+
 double number_at(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
@@ -116,6 +133,22 @@ json compact_batch(const json& batch) {
           {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
 }
 
+/// YYYY-MM-DD, universal time: today, or the day of SOURCE_DATE_EPOCH (reproducible-builds.org).
+std::string day() {
+  const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
+  const std::time_t now = fixed ? static_cast<std::time_t>(std::atoll(fixed)) : std::time(nullptr);
+  std::tm parts{};
+  char text[16];
+  return gmtime_r(&now, &parts) && std::strftime(text, sizeof text, "%Y-%m-%d", &parts) ? text : "";
+}
+
+json json_of(const MissionExtras& extras) {
+  json data{{"title", extras.title}, {"subtitle", extras.subtitle}, {"goals", extras.goals}};
+  if (extras.map) data["map"] = json_of(*extras.map);
+  if (!extras.way.empty()) data["trajectory"] = json_of(extras.way, kMostOverlayRows);
+  return data;
+}
+
 std::string page_of(const std::string& kind, const json& data) {
   return page_html(kind, data, {}, "report/main.js");
 }
@@ -124,14 +157,17 @@ std::string page_of(const std::string& kind, const json& data) {
 
 std::string page_html(const std::string& kind, const json& data, std::span<const Module> own,
                       const std::string& starts) {
-  const std::string title = data.value("title", "");
+  const std::string title = data.value("title", ""), robot = data.value("subtitle", "");
   json versioned = data;
   versioned["version"] = JOULEPATH_VERSION;
+  const std::string about =
+      (robot.empty() ? "" : robot + " · ") + day() + " · joulepath " + JOULEPATH_VERSION;
+  versioned["about"] = about;
   return filled(
       embedded::page,
       {{"@KIND@", kind},
        {"@STARTS@", starts},
-       {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
+       {"@TITLE@", escaped((title.empty() ? kind : title) + " · " + about)},
        {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
        {"@TABLES@", plain_tables(data.at(kind))},
        {"@PAGE_STYLE@", shared_style()},
@@ -150,6 +186,13 @@ std::string plan_report_html(const json& plan, const Columns& trajectory, const 
   for (const Saving& saving : extras.savings)
     data["savings"].push_back(
         {{"name", saving.name}, {"saved_J", saving.saved_J}, {"by_cause", saving.by_cause_J}});
+  add_band("battery_power_W", extras.bands.battery_power_W, data);
+  add_band("energy_J", extras.bands.energy_J, data);
+  add_band("battery_fraction", extras.bands.battery_fraction, data);
+  add_band("winding_C", extras.bands.winding_C, data);
+  const auto& [missions_per_day, price_per_kWh] = extras.operation;
+  if (missions_per_day) data["missions_per_day"] = *missions_per_day;
+  if (price_per_kWh) data["price_per_kWh"] = *price_per_kWh;
   return page_of("plan", data);
 }
 
@@ -165,7 +208,7 @@ json runs_json(const std::vector<RunComparison>& runs, std::size_t most_numbers)
 }
 
 std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& extras) {
-  json data{{"diagnosis", diagnosis}, {"title", extras.title}};
+  json data{{"diagnosis", diagnosis}, {"title", extras.title}, {"subtitle", extras.subtitle}};
   for (const VerdictWords& words : kVerdicts)
     if (diagnosis.value("verdict", "") == words.name)
       data["verdict"] = {{"title", words.title}, {"meaning", words.meaning}, {"good", words.good}};
@@ -175,13 +218,17 @@ std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& 
 }
 
 std::string compare_report_html(const json& compare, const std::vector<NamedColumns>& profiles,
-                                const std::string& title) {
-  return page_of("compare", {{"compare", compare}, {"title", title}, {"profiles", json_of(profiles)}});
+                                const MissionExtras& extras) {
+  json data = json_of(extras);
+  data["compare"] = compare;
+  data["profiles"] = json_of(profiles);
+  return page_of("compare", data);
 }
 
-std::string front_report_html(const json& front, const std::vector<NamedColumns>& profiles,
-                              const std::string& title) {
-  return page_of("front", {{"front", front}, {"title", title}, {"profiles", json_of(profiles)}});
+std::string front_report_html(const json& front, const MissionExtras& extras) {
+  json data = json_of(extras);
+  data["front"] = front;
+  return page_of("front", data);
 }
 
 std::string batch_report_html(const json& batch, const std::string& title) {

@@ -75,9 +75,9 @@ class Suggestion {
     } else if (type == "nav_msgs/Odometry") {
       add("linear_speed_m_s", topic, "twist.twist.linear.x");
       add("angular_speed_rad_s", topic, "twist.twist.angular.z");
-      pose(topic);
-    } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
-      if (!has_odometry()) pose(topic);
+      if (!has_localization()) pose(topic, "pose.pose.");
+    } else if (is_localization(topic)) {
+      pose(topic, type == "geometry_msgs/PoseStamped" ? "pose." : "pose.pose.");
     } else if (type == "sensor_msgs/JointState") {
       wheels(topic);
     } else if (type == "sensor_msgs/BatteryState") {
@@ -92,17 +92,22 @@ class Suggestion {
     }
   }
 
-  [[nodiscard]] bool has_odometry() const {
-    return std::ranges::any_of(survey_.topics, [](const BagTopic& topic) {
-      return topic.readable && topic.messages > 0 && short_type(topic) == "nav_msgs/Odometry";
-    });
+  /// Poses of a localization or of motion capture, which do not come from the wheels; a goal or a first guess
+  /// has few messages.
+  static bool is_localization(const BagTopic& topic) {
+    constexpr std::size_t kFew = 10;
+    const std::string type = short_type(topic);
+    return topic.readable && topic.messages > kFew &&
+           (type == "geometry_msgs/PoseWithCovarianceStamped" || type == "geometry_msgs/PoseStamped");
   }
 
-  void pose(const BagTopic& topic) {
-    add("position_x_m", topic, "pose.pose.position.x");
-    add("position_y_m", topic, "pose.pose.position.y");
+  [[nodiscard]] bool has_localization() const { return std::ranges::any_of(survey_.topics, is_localization); }
+
+  void pose(const BagTopic& topic, const std::string& at) {
+    add("position_x_m", topic, at + "position.x");
+    add("position_y_m", topic, at + "position.y");
     for (const char* part : {"w", "x", "y", "z"})
-      add(std::string("orientation_") + part, topic, std::string("pose.pose.orientation.") + part);
+      add(std::string("orientation_") + part, topic, at + "orientation." + part);
   }
 
   /// The only joints whose names contain a side; both or none.
@@ -200,6 +205,7 @@ BagSurvey survey_bag(const std::string& file, const NamedBy& named_by) {
           } catch (const BytesEnd&) {
           }
       });
+  if (last_ns > 0) survey.begins_s = 1e-9 * static_cast<double>(first_ns);
   if (last_ns > first_ns) survey.duration_s = 1e-9 * static_cast<double>(last_ns - first_ns);
   return survey;
 }

@@ -23,15 +23,17 @@ struct BagTopic {
 struct BagSurvey {
   std::vector<BagTopic> topics{};
   MessageDamage damage{};
+  double begins_s{};    ///< stamp of the first message
   double duration_s{};  ///< between the first and the last log time
 };
 
 /// The topics of a bag.
 [[nodiscard]] BagSurvey survey_bag(const std::string& file, const NamedBy& named_by = {});
 
-/// The columns that the types of a bag's topics suggest: speeds and pose of the first Odometry, wheels of the
-/// first JointState whose joints are called left and right, battery, gyro and commands. Currents are not
-/// among them: an effort may be a torque. Power messages suggest all of their columns.
+/// The columns that the types of a bag's topics suggest: speeds of the first Odometry, the pose of a
+/// localization or else of the odometry, wheels of the first JointState whose joints are called left and
+/// right, battery, gyro and commands. Currents are not among them: an effort may be a torque. Power messages
+/// suggest all of their columns.
 [[nodiscard]] ColumnSources suggested_columns(const BagSurvey& survey);
 
 /// A dataset file for a bag, with those suggested columns that its messages have, for the user to confirm. It

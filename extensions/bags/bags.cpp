@@ -36,7 +36,7 @@ FileSummary check_bag(const std::string& file, const ReadOptions&) {
     summary.notes.push_back(
         "no topic of a motion is known by its type: a dataset file maps one under columns:");
   else
-    summary.proposal = suggested_dataset(survey, file);
+    summary.proposal = suggested_dataset(survey, file), summary.begins_s = survey.begins_s;
   return summary;
 }
 

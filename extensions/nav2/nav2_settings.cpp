@@ -48,22 +48,21 @@ std::string loses(const Plan& plan, const ControllerLoss& loss) {
   constexpr double kSameTime_s = 0.005;
   const LossAtTime &own = loss.own_time, &at = loss.plan_time ? *loss.plan_time : own;
   const double early_s = plan.duration_s - own.duration_s;
-  const double more_percent = 100 * at.lost_J() / at.optimum_J;
   char text[300];
   if (early_s < -kSameTime_s)
     std::snprintf(
         text, sizeof text,
-        "%.2f s, %.1f J: %.2f s after the plan; %+.1f %% against the least energy in that time, %.1f J",
-        own.duration_s, own.energy_J, -early_s, more_percent, at.optimum_J);
+        "%.2f s, %.1f J: %.2f s after the plan; the least energy in that time is %.1f J, %.1f %% less",
+        own.duration_s, own.energy_J, -early_s, at.optimum_J, at.lost_percent());
   else if (early_s > kSameTime_s)
     std::snprintf(
         text, sizeof text,
-        "%.2f s, %.1f J: %.2f s before the plan, %.1f J with standby until then; %+.1f %% against the "
-        "plan's %.1f J",
-        own.duration_s, own.energy_J, early_s, at.energy_J, more_percent, at.optimum_J);
+        "%.2f s, %.1f J: %.2f s before the plan, %.1f J with standby until then; the plan's %.1f J are "
+        "%.1f %% less",
+        own.duration_s, own.energy_J, early_s, at.energy_J, at.optimum_J, at.lost_percent());
   else
-    std::snprintf(text, sizeof text, "%.2f s, %.1f J; %+.1f %% against the plan's %.1f J in the same time",
-                  own.duration_s, own.energy_J, more_percent, at.optimum_J);
+    std::snprintf(text, sizeof text, "%.2f s, %.1f J; the plan's %.1f J in the same time are %.1f %% less",
+                  own.duration_s, own.energy_J, at.optimum_J, at.lost_percent());
   return text + (loss.broken_limit.empty() ? "" : "; exceeds a limit: " + loss.broken_limit);
 }
 

@@ -62,15 +62,13 @@ double voltage_error_V(const Battery& battery, const LegState& state, double mos
                   std::abs(open_circuit_voltage_V(battery, least) - state.open_circuit_voltage_V));
 }
 
-/// Variance (J^2) of changes at one sigma per uncertain constant, and of the model's own.
-double variance_J2(const std::vector<double>& shifts_J, double of_model_J,
-                   const Eigen::MatrixXd& correlation) {
-  double sum_J2 = 0.0;
-  for (const double shift_J : shifts_J) sum_J2 += shift_J * shift_J;
-  return std::max(0.0, sum_J2 + of_model_J * of_model_J + correlated_variance(shifts_J, correlation));
-}
-
 }  // namespace
+
+double variance_of(const std::vector<double>& shifts, double of_model, const Eigen::MatrixXd& correlation) {
+  double sum = of_model * of_model;
+  for (const double shift : shifts) sum += shift * shift;
+  return std::max(0.0, sum + correlated_variance(shifts, correlation));
+}
 
 double fed_W(const LegPlan& leg, double standby_W) { return std::min(leg.charger_W, standby_W); }
 
@@ -93,9 +91,9 @@ void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
     }
     const double leg_model_J = of_model.value_or(0) * leg.energy.motion_J();
     of_model_J += leg_model_J;
-    leg_variances_J2.push_back(variance_J2(of_leg_J, leg_model_J, correlation));
+    leg_variances_J2.push_back(variance_of(of_leg_J, leg_model_J, correlation));
   }
-  const double whole_J2 = variance_J2(shifts_J, of_model_J, correlation);
+  const double whole_J2 = variance_of(shifts_J, of_model_J, correlation);
   if (whole_J2 <= 0) return;
   plan.sigma_has_model_error = of_model.has_value();
   plan.energy_sigma_J = std::sqrt(whole_J2);

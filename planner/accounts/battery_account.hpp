@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 #include "planner/accounts/stretch_account.hpp"
 #include "planner/values/plan.hpp"
@@ -51,5 +53,10 @@ void tell_anew(Plan& plan, const std::string& told);
 /// the model's own error. Errors of the legs are correlated, so the plan's sigma is above
 /// the root sum of squares of the legs. Where all constants are exact, or none is stated, nothing is set.
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant);
+
+/// Variance of a quantity from its changes at one sigma of each uncertain constant, and from the model's own
+/// error of it.
+[[nodiscard]] double variance_of(const std::vector<double>& shifts, double of_model,
+                                 const Eigen::MatrixXd& correlation);
 
 }  // namespace joulepath

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <utility>
 
 #include "model/winding.hpp"
 #include "planner/legs/leg_motion.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -57,8 +59,11 @@ class Winding {
 /// Both windings over the legs.
 class Heating {
  public:
-  explicit Heating(const Plant& plant)
+  /// `trace`: told time and both windings after each node and rest.
+  using Trace = std::function<void(double time_s, const std::array<Winding, 2>&)>;
+  explicit Heating(const Plant& plant, Trace trace = {})
       : plant_(plant),
+        trace_(std::move(trace)),
         windings_{Winding(plant.robot.motor.left, Side::left),
                   Winding(plant.robot.motor.right, Side::right)} {
     look();
@@ -102,8 +107,10 @@ class Heating {
   void rest(double time_s) {
     for (Winding& winding : windings_) winding.carry(0.0, 1.0, time_s);
     time_s_ += time_s;
+    if (trace_) trace_(time_s_, windings_);
   }
   void look() {
+    if (trace_) trace_(time_s_, windings_);
     for (const Winding& winding : windings_) {
       if (!winding.is_stated()) continue;
       if (winding.temperature_C() > account_.highest_C) {
@@ -119,6 +126,7 @@ class Heating {
   }
 
   const Plant& plant_;
+  Trace trace_;
   std::array<Winding, 2> windings_;
   WindingAccount account_{.highest_C = -kNoLimit, .above_limit_K = -kNoLimit};
   double time_s_{};
@@ -136,6 +144,18 @@ std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& pla
   return account;
 }
 
+WindingTrace winding_trace(const Plan& plan, const Plant& plant, Side side, std::size_t most_rows) {
+  WindingTrace trace;
+  const double step_s = plan.duration_s / static_cast<double>(std::max<std::size_t>(1, most_rows));
+  Heating heating(plant, [&](double time_s, const std::array<Winding, 2>& windings) {
+    if (!trace.time_s.empty() && time_s < trace.time_s.back() + step_s) return;
+    trace.time_s.push_back(time_s);
+    trace.temperature_C.push_back(windings[side == Side::left ? 0 : 1].temperature_C());
+  });
+  for (const LegPlan& leg : plan.legs) heating.add(leg);
+  return trace;
+}
+
 std::optional<Infeasibility> winding_too_hot(const Plan& plan) {
   if (!plan.winding || !plan.winding->fails_on_leg) return std::nullopt;
   const WindingAccount& account = *plan.winding;
@@ -144,7 +164,8 @@ std::optional<Infeasibility> winding_too_hot(const Plan& plan) {
   text.precision(4);
   text << "the " << side_name(account.side) << " motor's winding reaches " << account.highest_C << " C, "
        << account.above_limit_K << " K above max_winding_C; the limit is passed on leg "
-       << *account.fails_on_leg << ", " << account.fails_at_s << " s after the mission's start";
+       << leg_text(*account.fails_on_leg, plan.legs[*account.fails_on_leg].to) << ", " << account.fails_at_s
+       << " s after the mission's start";
   return Infeasibility{.constraint = kWindingTemperature,
                        .x_m = pose.x_m,
                        .y_m = pose.y_m,

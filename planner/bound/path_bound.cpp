@@ -6,6 +6,7 @@
 #include "planner/bound/geodesic.hpp"
 #include "planner/bound/line_price.hpp"
 #include "planner/legs/stretch.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -180,7 +181,7 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   double dwell_s = 0;
   for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
     const LegBound& leg = bounds.find(k, price_W);
-    if (!leg.reason.empty()) sum.reason = "leg " + std::to_string(k) + ": " + leg.reason;
+    if (!leg.reason.empty()) sum.reason = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
     sum.cost_J += leg.cost_J, sum.around_corners |= leg.around_corners, sum.by_headings |= leg.by_headings;
     dwell_s += plan.legs[k].dwell_s;
   }

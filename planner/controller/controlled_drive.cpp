@@ -10,6 +10,7 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/profile/profile_solver.hpp"
+#include "planner/values/verdict_text.hpp"
 
 // Design: docs/decisions/0401-controllers-and-graphs.md
 namespace joulepath {
@@ -109,7 +110,7 @@ ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& set
     drive.duration_s += result.duration_s - stretch.profile.duration_s();
     drive.stretch_s.push_back(result.duration_s);
     if (!result.feasible && drive.broken_limit.empty())
-      drive.broken_limit = "leg " + std::to_string(place.leg) + ": " + result.reason;
+      drive.broken_limit = "leg " + leg_text(place.leg, plan.legs[place.leg].to) + ": " + result.reason;
   });
   return drive;
 }

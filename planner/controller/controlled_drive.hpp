@@ -54,6 +54,7 @@ struct LossAtTime {
   double energy_J{};
   double optimum_J{};
   [[nodiscard]] double lost_J() const { return energy_J - optimum_J; }
+  [[nodiscard]] double lost_percent() const { return energy_J > 0 ? 100 * lost_J() / energy_J : 0.0; }
 };
 
 /// The loss of a controller that cannot follow the plan's speeds.

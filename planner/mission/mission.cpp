@@ -163,7 +163,7 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
                                          split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
     Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
     reason.message += held_by(timed.prepared.timing[leg]);
-    return PlanInfeasibility{std::move(reason), leg, s_m};
+    return PlanInfeasibility{.reason = std::move(reason), .leg = leg, .arc_length_m = s_m};
   }
   for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
     const std::optional<double>& asked_s = mission.legs[k].duration_s;
@@ -172,7 +172,7 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
                                          *asked_s, SolverChoice::fast);
     Infeasibility reason = too_short(*asked_s, split.duration_s[k], s_m, pose);
     reason.message += held_by(timed.prepared.timing[k]);
-    return PlanInfeasibility{std::move(reason), k, s_m};
+    return PlanInfeasibility{.reason = std::move(reason), .leg = k, .arc_length_m = s_m};
   }
   return std::nullopt;
 }
@@ -212,7 +212,7 @@ Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, co
     results[k] = final_results(timing[k], split.price_W[k], split.duration_s[k], options);
   });
   for (std::size_t k = 0; k < legs.size(); ++k)
-    if (!all_driven(k, timing[k].stretches(), results[k], plan)) return plan;
+    if (!all_driven(k, timed.prepared, results[k], plan)) return plan;
   const UncertainPlant uncertain_plant = uncertain(plant);
   const auto plant_on = [&](std::size_t k) { return uncertain(plant_in(plant, states[k])); };
   for_each_index(legs.size(), options.threads, [&](std::size_t k) {
@@ -243,11 +243,12 @@ Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, co
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, const Plan& known,
                      std::optional<double> way_price_W = {}) {
-  if (!drifts(world.robot))
-    return plan_in_states(mission, world, options, space, plant, {}, known, way_price_W);
-  return settled_plan(mission, world.robot, options, [&](const std::vector<LegState>& states) {
+  const auto plan_in = [&](const std::vector<LegState>& states) {
     return plan_in_states(mission, world, options, space, plant, states, known, way_price_W);
-  });
+  };
+  Plan plan = drifts(world.robot) ? settled_plan(mission, world.robot, options, plan_in) : plan_in({});
+  if (auto& verdict = plan.infeasibility) verdict->to = goal_name(mission.legs[verdict->leg]);
+  return plan;
 }
 
 const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* space) {

@@ -114,7 +114,7 @@ class LegPreparation {
     const Plant priced = states_.empty() ? plant : priced_plant_in(plant_, states_[k]);
     prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world, priced, options_, memory_),
                                   options_.answers);
-    prepared_.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
+    prepared_.legs.push_back({.to = goal_name(leg),
                               .path_source = way.source,
                               .payload = leg.payload,
                               .parts = leg.parts,
@@ -151,6 +151,11 @@ class LegPreparation {
 };
 
 }  // namespace
+
+std::string goal_name(const LegRequest& leg) {
+  if (leg.motion) return "motion";
+  return leg.to.empty() ? "path" : leg.to;
+}
 
 Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
   plan.status = SolveStatus::infeasible;
@@ -192,8 +197,9 @@ void check_end_speeds(const PreparedLegs& prepared, const MissionRequest& missio
   }
 }
 
-bool all_driven(std::size_t leg, const std::vector<ProfileRequest>& stretches,
-                const std::vector<ProfileResult>& results, Plan& plan) {
+bool all_driven(std::size_t leg, const PreparedLegs& prepared, const std::vector<ProfileResult>& results,
+                Plan& plan) {
+  const std::vector<ProfileRequest>& stretches = prepared.timing[leg].stretches();
   double offset_m = 0.0;
   for (std::size_t k = 0; k < results.size(); ++k) {
     const bool turns = is_turn(stretches[k].piece);
@@ -202,7 +208,8 @@ bool all_driven(std::size_t leg, const std::vector<ProfileRequest>& stretches,
         plan = infeasible(std::move(plan), leg, offset_m + (turns ? 0.0 : results[k].infeasibility->s),
                           *results[k].infeasibility);
       else
-        plan = failed(std::move(plan), "leg " + std::to_string(leg) + ": " + results[k].summary.message);
+        plan = failed(std::move(plan),
+                      "leg " + leg_text(leg, prepared.legs[leg].to) + ": " + results[k].summary.message);
       return false;
     }
     if (!turns) offset_m += piece_length(stretches[k].piece);
@@ -212,8 +219,7 @@ bool all_driven(std::size_t leg, const std::vector<ProfileRequest>& stretches,
 
 bool check_each_leg(PreparedLegs& prepared, double price_W, SolverChoice solver, Plan& plan) {
   for (std::size_t leg = 0; leg < prepared.timing.size(); ++leg)
-    if (!all_driven(leg, prepared.timing[leg].stretches(), prepared.timing[leg].solve(price_W, solver), plan))
-      return false;
+    if (!all_driven(leg, prepared, prepared.timing[leg].solve(price_W, solver), plan)) return false;
   return true;
 }
 

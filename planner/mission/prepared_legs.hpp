@@ -14,6 +14,8 @@ struct PreparedLegs {
   std::vector<LegPlan> legs{};
 };
 
+/// What a leg leads to: a station, `path` or `motion`.
+[[nodiscard]] std::string goal_name(const LegRequest& leg);
 /// Makes the plan infeasible with a verdict.
 [[nodiscard]] Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason);
 /// Makes the plan a failure of the solvers.
@@ -32,7 +34,7 @@ struct PreparedLegs {
 void check_end_speeds(const PreparedLegs& prepared, const MissionRequest& mission);
 
 /// Whether all stretches of a leg have profiles; if not, the plan becomes the verdict with its reason.
-[[nodiscard]] bool all_driven(std::size_t leg, const std::vector<ProfileRequest>& stretches,
+[[nodiscard]] bool all_driven(std::size_t leg, const PreparedLegs& prepared,
                               const std::vector<ProfileResult>& results, Plan& plan);
 
 /// Whether every stretch can be driven at all; if not, the plan becomes the verdict.

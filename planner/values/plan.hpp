@@ -107,6 +107,7 @@ struct LegPlan {
 struct PlanInfeasibility {
   Infeasibility reason{};
   std::size_t leg{};
+  std::string to{};       ///< where the leg leads, as in LegPlan
   double arc_length_m{};  ///< along the leg
   LegState state{};       ///< of battery and windings on the leg
 };

@@ -14,4 +14,8 @@ std::string sentence(const Infeasibility& verdict) {
   return text.str();
 }
 
+std::string leg_text(std::size_t leg, const std::string& to) {
+  return std::to_string(leg + 1) + (to.empty() ? "" : " (" + to + ")");
+}
+
 }  // namespace joulepath

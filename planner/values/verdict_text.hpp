@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "planner/values/infeasibility.hpp"
@@ -8,5 +9,8 @@ namespace joulepath {
 
 /// Constraint, place, amount and relaxation of a verdict as a sentence.
 [[nodiscard]] std::string sentence(const Infeasibility& verdict);
+
+/// `2 (dock)`: texts count legs from 1 and name their goal, files and values count from 0.
+[[nodiscard]] std::string leg_text(std::size_t leg, const std::string& to);
 
 }  // namespace joulepath

@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import subprocess
 import sys
 
@@ -262,7 +263,8 @@ def test_a_fleet_file_is_planned_and_saved(tmp_path):
     found.save(tmp_path / "out")
     content = json.loads((tmp_path / "out/fleet.json").read_text())
     assert content["missions"][0]["name"] == "parts" and content["missions"][0]["late_s"] == 0
-    assert "Traffic" in (tmp_path / "out/report.html").read_text()
+    page = (tmp_path / "out/report.html").read_text()
+    assert "Traffic" in page and re.search(r"<title>Fleet .* · \d{4}-\d\d-\d\d · joulepath \d.*</title>", page)
     planned = json.loads((tmp_path / "out/missions/parts/plan.json").read_text())
     assert planned["status"] in ("optimal", "feasible")  # driven; the fast solver leaves a gap at a front's edge
     with pytest.raises(jp.ConfigError, match="exists"):

@@ -15,7 +15,7 @@ Json at_time_json(const LossAtTime& loss) {
           {"energy_J", loss.energy_J},
           {"optimum_J", loss.optimum_J},
           {"lost_J", loss.lost_J()},
-          {"lost_percent", loss.optimum_J > 0 ? 100 * loss.lost_J() / loss.optimum_J : 0.0}};
+          {"lost_percent", loss.lost_percent()}};
 }
 
 }  // namespace
@@ -35,11 +35,13 @@ std::string loss_json_text(const ControllerLoss& loss, const std::string& what) 
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = [] {
     std::vector<ExportFormat> all{
-        {"nav2_path", "poses with stamps, shaped as nav_msgs/Path (JSON, which is YAML too)", export_nav2_path},
+        {"nav2_path", "poses with stamps, shaped as nav_msgs/Path (JSON, which is YAML too)",
+         export_nav2_path},
         {"trajectory", "poses, speeds, accelerations and efforts, shaped as nav_msgs/Trajectory (JSON)",
          export_trajectory},
         {"plotjuggler", "all signals over time, grouped by name (CSV)", export_plotjuggler},
-        {"edges", "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
+        {"edges",
+         "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
          export_edges},
     };
     std::ranges::copy(registry().exports, std::back_inserter(all));

@@ -151,6 +151,7 @@ Json leg_json(const LegPlan& leg) {
             {"improvements", Json::array()},
             {"baselines", Json::array()}};
   add_path_bound(leg.path_bound, leg.energy.total_J(), json);
+  if (leg.path_bound) json["far_above_path_bound"] = far_above_bound(leg);
   if (leg.charged_J > 0) json["charged_J"] = leg.charged_J;
   for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
   for (const PathAlternative& alternative : leg.alternatives)
@@ -226,6 +227,7 @@ Json confidence_json(const Plan& plan) {
 Json infeasibility_json(const PlanInfeasibility& verdict) {
   return {{"constraint", verdict.reason.constraint},
           {"leg", verdict.leg},
+          {"to", verdict.to},
           {"arc_length_m", verdict.arc_length_m},
           {"x_m", verdict.reason.x_m},
           {"y_m", verdict.reason.y_m},

@@ -74,6 +74,9 @@ Schema leg_result_schema() {
            optional("path_gap_percent", result(), kPathGapMeans),
            optional("path_bound_part", text(), kPathPartMeans),
            optional("path_bound_reason", text(), kPathReasonMeans),
+           optional("far_above_path_bound", boolean(),
+                    "the gap is large, without corners that explain it: another seed or a stop on the "
+                    "way may be cheaper"),
            optional("charged_J", result(), "at the charger of an inserted stop"),
            required("duration_s", result(), "without dwell"),
            required("distance_m", result()),
@@ -130,9 +133,9 @@ Schema confidence_schema() {
 
 Schema infeasibility_schema() {
   return open(
-      map({required("constraint", text()), required("leg", integer()), required("arc_length_m", result()),
-           required("x_m", result()), required("y_m", result()), required("amount", result()),
-           required("unit", text()),
+      map({required("constraint", text()), required("leg", integer()), optional("to", text()),
+           required("arc_length_m", result()), required("x_m", result()), required("y_m", result()),
+           required("amount", result()), required("unit", text()),
            required("relaxation", dictionary(result()), "the smallest change that makes it feasible")}));
 }
 

@@ -54,6 +54,30 @@ TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   }
 }
 
+TEST(Batch, ARowSaysWhatItsPromisesAreKeptWith) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml"));
+  std::string sure = mission("sure", 3);
+  sure.insert(sure.size() - 1, R"(, "objective": {"minimize": "time", "confidence": 0.9})");
+  const std::string lines = scratch.write("m.jsonl", sure + "\n" + mission("plain", 3) + "\n");
+  ASSERT_EQ(run_program(scratch, "batch " + lines + " -q --nodes 20 --out " + scratch.at("out")).code, 0);
+  const auto results = lines_of(scratch.at("out/results.jsonl"));
+  const double kept = results.at(0).at("kept");
+  EXPECT_GE(kept, 0.9) << results[0];
+  ASSERT_FALSE(results[0].at("promises").empty()) << results[0];
+  for (const auto& [name, share] : results[0]["promises"].items()) {
+    EXPECT_GE(share.get<double>(), kept) << name;
+    EXPECT_LE(share.get<double>(), 1.0) << name;
+  }
+  EXPECT_FALSE(results.at(1).contains("kept")) << results[1];
+  // The option asks the same of every mission; lines of another confidence are planned again.
+  const std::string again =
+      "batch " + lines + " -q --nodes 20 --force --confidence 0.95 --out " + scratch.at("out");
+  ASSERT_EQ(run_program(scratch, again).code, 0);
+  for (const Json& line : lines_of(scratch.at("out/results.jsonl")))
+    EXPECT_GE(line.value("kept", 0.0), 0.95) << line;
+}
+
 /// Missions that share legs, and missions that differ from each other in one property.
 std::vector<std::string> sharing_missions() {
   const std::string legs[] = {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "scenarios/any_file.hpp"
 #include "tests/app/program_result.hpp"
@@ -427,6 +428,82 @@ TEST(CommandLine, AWriteThatTheDiskRefusesIsAnEnvironmentError) {
         std::string("'" JOULEPATH_PROGRAM "' ") + arguments + " > /dev/full 2>/dev/null";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
   }
+}
+
+/// Three meters with a deadline, as m.yaml.
+void write_drive(const ScratchDirectory& scratch, double deadline_s) {
+  scratch.write("robot.yaml", text_of(JOULEPATH_SOURCE_DIR "/tests/data/broken/good/robot.yaml"));
+  scratch.write(
+      "m.yaml",
+      "schema: joulepath/mission/1\nrobot: robot.yaml\nlegs:\n"
+      "  - {path: {bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]}, dwell_s: 3}\nobjective: {deadline_s: " +
+          std::to_string(deadline_s) + "}\n");
+}
+
+/// Every help, and the summaries of plans, on a terminal of 110 columns.
+TEST(CommandLine, NoLineIsWiderThanOneHundredAndTenColumns) {
+  const ScratchDirectory scratch;
+  const auto check = [](const std::string& text, const std::string& what) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << what << ": " << line;
+  };
+  const std::string help = run_program(scratch, "--help").out;
+  check(help, "--help");
+  std::istringstream lines(help.substr(help.find("Subcommands:")));
+  for (std::string line; std::getline(lines, line);)
+    if (line.size() > 3 && line.starts_with("  ") && line[2] != ' ') {
+      const std::string command = line.substr(2, line.find(' ', 2) - 2);
+      check(run_program(scratch, command + " --help").out, command);
+    }
+  write_drive(scratch, 20);
+  const std::string mission = " " + scratch.at("m.yaml") + " --nodes 20 --out ";
+  check(run_program(scratch, "plan" + mission + scratch.at("p")).out, "plan");
+  check(run_program(scratch, "compare" + mission + scratch.at("c")).out, "compare");
+  check(run_program(scratch, "front --points 4" + mission + scratch.at("f")).out, "front");
+}
+
+/// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.
+TEST(CommandLine, CheckTriesAMissionCoarsely) {
+  const ScratchDirectory scratch;
+  write_drive(scratch, 1);
+  const auto notes = [&](const std::string& options) {
+    return run_program(scratch, "check " + scratch.at("m.yaml") + options).err;
+  };
+  EXPECT_NE(notes("").find("tried coarsely: deadline on leg 1 (path)"), std::string::npos) << notes("");
+  EXPECT_EQ(notes(" --brief"), "");
+  write_drive(scratch, 30);
+  EXPECT_EQ(notes(""), "");
+  scratch.write(
+      "hall.pgm", "P2\n40 20\n255\n" + [] {
+        std::string cells;
+        for (int k = 0; k < 800; ++k) cells += k % 40 > 25 ? "0 " : "254 ";
+        return cells;
+      }());
+  scratch.write("map.yaml",
+                "image: hall.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                "occupied_thresh: 0.65\nfree_thresh: 0.2\n");
+  scratch.write("m.yaml",
+                "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: map.yaml\nstations:\n"
+                "  shelf: {x_m: 3.5, y_m: 1}\nstart: {x_m: 1, y_m: 1}\nlegs:\n  - {to: shelf}\n");
+  const std::string walled = notes("");
+  EXPECT_NE(walled.find("tried coarsely: path on leg 1 (shelf): the robot does not fit at the goal"),
+            std::string::npos)
+      << walled;
+}
+
+/// A folder with a plan is safe from the next one; a folder with a verdict is free for it.
+TEST(CommandLine, AnInfeasibleTryDoesNotBlockItsFolder) {
+  const ScratchDirectory scratch;
+  const auto plan = [&](double time_s) {
+    write_drive(scratch, time_s);
+    return run_program(scratch, "plan " + scratch.at("m.yaml") + " -q --nodes 20 --out " + scratch.at("out"));
+  };
+  EXPECT_EQ(plan(1).code, 1);
+  EXPECT_EQ(plan(2).code, 1) << "the second try";
+  EXPECT_EQ(plan(20).code, 0);
+  const ProgramResult again = plan(20);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("--force"), std::string::npos) << again.err;
 }
 
 TEST(CommandLine, InterruptedMeansOneHundredAndThirty) {

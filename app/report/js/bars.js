@@ -19,7 +19,7 @@ jp.bar_rows = function (rows, options = {}) {
 /** Values against a base: bars of the differences, where bars from zero would all look alike. */
 jp.difference_rows = (rows, base, unit) => jp.bar_rows(rows.map((row) => {
   const more = row.value - base;
-  return {label: row.label, value: Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0, color: more < 0 ? "var(--third)" : "var(--second)", text: `${with_unit(row.value, unit)} (${signed(Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0)}, ${signed(100 * more / base, 2)}\u202f%)`};
+  return {label: row.label, value: Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0, color: more < 0 ? "var(--third)" : "var(--second)", text: `${with_unit(row.value, unit)} (${signed(Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0)})`};
 }));
 
 const kCauseColors = {standby: ["#8b949e", "#000"], copper: ["#e69f00", "#000"], coulomb_friction: ["#0072b2", "#fff"], viscous_friction: ["#56b4e9", "#000"],
@@ -38,7 +38,7 @@ jp.causes = function (by_cause) {
     }
   }
   const most = listed.reduce((most, cause) => Math.max(most, Math.abs(cause.J)), 0);
-  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-9 * most) cause.J = 0; });  // rounding errors
+  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-6 * most) cause.J = 0; });  // rounding errors
   const order = ["standby", "coulomb_friction", "viscous_friction", "copper", "kinetic", "not_recovered"];
   const place = (cause) => (order.includes(cause.name) ? order.indexOf(cause.name) : order.length);
   return listed.sort((a, b) => place(a) - place(b));

@@ -43,10 +43,11 @@ jp.table = function (heads, rows, caption) {
   return box;
 };
 
-jp.header = function (title, subtitle, status, is_good) {
+/** `sentence`: what a manager reads. Under it: robot, day, version. */
+jp.header = function (title, sentence, status, is_good) {
   return [h("header", {class: "top"}, h("h1", {}, title), status ? h("span", {class: "badge" + (is_good ? "" : " bad")}, words(status)) : null,
     h("span", {class: "spacer"}), h("button", {type: "button", onclick: toggle_theme, id: "theme"}, "Light / dark")),
-  subtitle ? h("p", {class: "soft"}, subtitle) : null];
+  h("p", {class: "soft small"}, jp.data.about || ""), sentence ? h("p", {class: "sentence"}, sentence) : null];
 };
 jp.footer = () => h("footer", {}, `Written by joulepath ${jp.data.version || ""}. Data: the JSON in this file. `,
   jp.plots.length > 0 ? "Drag in a plot to zoom, double-click or press 0 to see all." : null);

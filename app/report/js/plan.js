@@ -1,6 +1,6 @@
 /** The report of `joulepath plan`. Data: {plan, trajectory: {column: [..]}, overlays: [{name, columns}], limits, map, title}. */
 import {button, h, key} from "page/dom.js";
-import {fraction, is_number, number, percent, short, signed, with_unit, words} from "page/numbers.js";
+import {fraction, is_number, number, percent, short, signed, value_at, with_unit, words} from "page/numbers.js";
 import {ramp_css} from "page/theme.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
@@ -33,11 +33,35 @@ jp.time_text = function (plan) {
   return dwell_s > 0 ? `${with_unit(plan.duration_s - dwell_s, "s")} driving, ${with_unit(dwell_s, "s")} dwell` : "no dwell";
 };
 
+/** "182.0 s, 2614 J". */
+jp.cost_text = (one) => `${with_unit(one.duration_s, "s")}, ${with_unit(one.energy_J, "J", 5)}`;
+/** What a drive takes on the plan's path, and what the optimum takes there in the same time. */
+jp.against_text = (who, one) => `${who}: ${jp.cost_text(one)}. Same path and time, optimal: ${with_unit(one.optimum_J, "J", 5)} (${percent(100 * (1 - one.optimum_J / one.energy_J), 2)} less).`;
+
+jp.plan_sentence = function (plan) {
+  const best = (plan.baselines || []).find((one) => one.name === "trapezoid_best_tuned" && one.feasible !== false && is_number(one.optimum_J));
+  return (best ? jp.against_text("The best tuned trapezoid", best) + " " : "") + `The plan: ${jp.cost_text(plan)}.`;
+};
+
+/** Energy of a year, and its price, where the missions of a day are known; else the missions of a battery charge. */
+jp.operation_tile = function (data) {
+  const {plan, missions_per_day, price_per_kWh: price} = data, battery = plan.battery, kWh = 365 * missions_per_day * plan.energy_Wh / 1000;
+  if (is_number(kWh)) return jp.tile("Energy of a year", with_unit(kWh, "kWh"), `${short(missions_per_day)} missions a day` + (is_number(price) ? `; ${number(kWh * price)} at ${short(price)} per kWh` : ""));
+  return battery && battery.missions_per_charge ? jp.tile("Missions per charge", short(Math.floor(battery.missions_per_charge), 7), `${with_unit(battery.missions_per_charge * plan.distance_m / 1000, "km", 3)} per charge`) : null;
+};
+
+/** How good the plan is, in one line. */
+jp.quality_text = function (plan) {
+  const parts = [is_number(plan.optimality_gap_percent) ? `speed profile within ${percent(plan.optimality_gap_percent, 2)}${jp.bound_text(plan)}` : "", is_number(plan.path_gap_percent) ? `path within ${percent(plan.path_gap_percent, 2)} of any path` : ""].filter(Boolean);
+  return parts.length ? h("p", {class: "soft small"}, "Of the least energy: " + parts.join(", ") + ".") : null;
+};
+
 /** What the bound leaves out. */
 jp.bound_text = (plan) => (plan.bound_without_jerk ? " without the jerk limit" : "");
 
 /** The first row: what it takes, what that saves and by which causes, how long it lasts, how good it is. */
-jp.plan_tiles = function (plan, savings) {
+jp.plan_tiles = function (data) {
+  const plan = data.plan, savings = data.savings || [];
   const against = (plan.baselines || []).filter((one) => is_number(one.saving_percent) && one.feasible !== false);
   const tiles = [jp.tile("Energy at the battery", with_unit(plan.energy_J, "J"), `${with_unit(plan.energy_Wh, "Wh")}; motion alone ${with_unit(plan.motion_energy_J, "J")}`)];
   against.forEach((one) => {
@@ -45,8 +69,7 @@ jp.plan_tiles = function (plan, savings) {
     tiles.push(jp.tile("Saved against " + words(one.name), with_unit(one.energy_J - one.optimum_J, "J", 3), [h("div", {}, `${percent(one.saving_percent)}; ${percent(one.motion_saving_percent)} of motion energy` + (one.later_s ? `, both in ${with_unit(one.duration_s, "s")}` : "")), saving ? h("div", {}, jp.saved_text(saving)) : null]));
   });
   tiles.push(jp.tile("Duration", with_unit(plan.duration_s, "s"), jp.time_text(plan)), jp.tile("Distance", with_unit(plan.distance_m, "m")));
-  if (is_number(plan.optimality_gap_percent)) tiles.push(jp.tile("Gap on these paths", percent(plan.optimality_gap_percent, 2), "at most this far from their optimum" + jp.bound_text(plan)));
-  if (is_number(plan.path_gap_percent)) tiles.push(jp.tile("Gap to any path", percent(plan.path_gap_percent, 2), `no path of any kind takes less than ${with_unit(plan.path_lower_bound_J, "J")} in this time`));
+  tiles.push(jp.operation_tile(data));
   const battery = plan.battery;
   if (battery && is_number(battery.end_fraction)) tiles.push(jp.tile("Battery left", fraction(battery.end_fraction, 4), "from " + fraction(battery.start_fraction, 4)));
   return h("div", {class: "tiles"}, tiles);
@@ -56,8 +79,8 @@ jp.infeasibility_box = function (plan) {
   const why = plan.infeasibility;
   if (!why) return null;
   const relax = Object.entries(why.relaxation || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
-  return h("div", {class: "notice", role: "alert"}, h("b", {}, `No plan: ${words(why.constraint)}`),
-    h("div", {}, why.message || "", ` Leg ${why.leg ?? 0}, at ${with_unit(why.arc_length_m, "m")} of its path (x ${number(why.x_m)}, y ${number(why.y_m)}), missed by ${with_unit(why.amount, why.unit || "")}.`),
+  return h("div", {class: "notice", role: "alert"}, why.message ? h("div", {}, why.message) : null,
+    h("div", {}, `At ${with_unit(why.arc_length_m, "m")} of the leg (x ${number(why.x_m)}, y ${number(why.y_m)}).`),
     relax ? h("div", {}, "Smallest change that works: " + relax + ".") : null);
 };
 
@@ -83,14 +106,15 @@ jp.energy_section = function (plan) {
     h("details", {}, h("summary", {}, "Numbers, in J"), jp.table(["", ...names.map((name) => ({n: words(name)})), {n: "total"}],
       [...legs.map((leg, k) => row_of(jp.leg_name(leg, k), leg.energy_by_cause_J, leg.energy_J)), row_of("mission", plan.energy_by_cause_J, total)])));
 };
-jp.leg_name = (leg, k) => `${k} ${leg.to && leg.to !== "path" && leg.to !== "motion" ? "to " + leg.to : leg.to || "path"}`;
+/** Legs are counted from 1, in keys and JSON from 0. */
+jp.leg_name = (leg, k) => `${k + 1} ${leg.to && leg.to !== "path" && leg.to !== "motion" ? "to " + leg.to : leg.to || "path"}`;
 
 jp.baseline_section = function (plan) {
   const baselines = (plan.baselines || []).filter((one) => one.name);
   if (!baselines.length) return null;
   const counted = baselines.filter((one) => one.feasible !== false && is_number(one.energy_J));
   const rows = [{name: "this plan", energy_J: plan.energy_J, motion_energy_J: plan.motion_energy_J, duration_s: plan.duration_s}, ...baselines];
-  return jp.section("Against classic profiles", h("p", {class: "soft"}, `Same path, same time: a profile that is later than the plan is compared with the least energy in its own time. The plan's time is ${jp.time_text(plan)}. Savings are of the model's energy; a diagnosis measures the model's own error.`),
+  return jp.section("Against classic profiles", h("p", {class: "soft"}, "Same path, same time: a profile that is later than the plan is compared with the least energy in its own time. Percentages are of the profile's energy. Savings are of the model's energy; a diagnosis measures the model's own error."),
     h("h3", {}, "More than the least in the same time, of motion energy"), jp.difference_rows(counted.map((one) => ({label: jp.profile_name(one), value: plan.motion_energy_J + one.motion_energy_J - one.optimum_motion_J})), plan.motion_energy_J, "J"),
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "least J in it"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
       ? [words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
@@ -154,7 +178,7 @@ jp.winding_section = function (plan) {
   return jp.section("Windings",
     h("p", {}, `Up to ${with_unit(winding.highest_C, "°C")} (${winding.side}), ${with_unit(-winding.above_limit_K, "K", 3)} below the limit.` + (winding.price_of_heat > 0 ? ` The plan is slower for it: a joule of copper loss counts ${number(1 + winding.price_of_heat, 3)} times.` : "")),
     jp.table(["leg", {n: "hottest left °C"}, {n: "right"}, {n: "after the stop left °C"}, {n: "right"}],
-      (plan.legs || []).map((leg, k) => [`${k} ${leg.to}`, ...both(winding.highest_on_leg_C, k), ...both(winding.after_leg_C, k)])));
+      (plan.legs || []).map((leg, k) => [jp.leg_name(leg, k), ...both(winding.highest_on_leg_C, k), ...both(winding.after_leg_C, k)])));
 };
 
 /** With what probability the promises are kept together, and what that costs. */
@@ -173,7 +197,7 @@ jp.confidence_section = function (plan) {
 
 /** What each gap means, for readers who know neither. */
 jp.gap_texts = function (plan) {
-  const texts = (plan.legs || []).flatMap((leg, k) => leg.path_gap_percent > 15 && leg.path_bound_part !== "corners" ? [`Leg ${jp.leg_name(leg, k)} lies ${percent(leg.path_gap_percent, 3)} above the bound over all paths, with no corner to explain it: another seed or a stop on the way may be cheaper.`] : []);
+  const texts = (plan.legs || []).flatMap((leg, k) => leg.far_above_path_bound ? [`Leg ${jp.leg_name(leg, k)} lies ${percent(leg.path_gap_percent, 3)} above the bound over all paths, with no corner to explain it: another seed or a stop on the way may be cheaper.`] : []);
   if (is_number(plan.optimality_gap_percent)) texts.push("The gap on these paths is how much energy a better speed profile on the same paths could save at most.");
   if (is_number(plan.path_gap_percent)) texts.push("The gap to any path is how much energy any other paths between the same stops, driven at any speeds in this time, could save at most; what can really be saved is usually far less." + (plan.path_bound_part === "corners" ? " It counts the shortest ways around obstacles as if they were straight, so part of it is the price of corners." : plan.path_bound_part === "headings" ? " It knows the headings at the stops, but not that the yaw rate takes time to change." : ""));
   return texts;
@@ -196,14 +220,20 @@ jp.motion_plots = function (data, axis, cursor) {
   const line = (name, column, color, look = {}) => (c[column] ? [{name, xs: () => axis.of(c), values: c[column], color, ...look}] : []);
   const overlay = (column) => (data.overlays || []).filter((one) => one.columns[column]).map((one, k) => ({name: words(one.name), xs: () => axis.of(one.columns), values: one.columns[column], color: ["second", "third", "fifth"][k % 3], dash: [5, 3], width: 1.2}));
   const limit_line = (name, column) => line(name, column, "limit", {dash: [7, 4], width: 1.2});
-  const add = (title, unit, series, limit_values = []) => series.length && plots.push(jp.plot({title, unit, series, limits: limit_values.filter(is_number), x: () => axis.of(c), cursor}));
+  // A band has instants of its own; over the distance they lie where the motion is then.
+  const along = (band) => axis.of(c) === c.time_s ? band.time_s : band.time_s.map((t) => value_at(c.time_s, axis.of(c), t));
+  const banded = (list, name, scale = 1) => { const band = (data.bands || {})[name]; return list.map((one) => (band ? {...one, band: {xs: () => along(band), low: band.low.map((y) => scale * y), high: band.high.map((y) => scale * y)}} : one)); };
+  const banded_line = (name, text, scale = 1) => { const band = (data.bands || {})[name]; return band ? banded([{name: text, xs: () => along(band), values: band.value.map((y) => scale * y), color: "plan"}], name, scale) : []; };
+  const add = (title, unit, series, limit_values = [], fitted = false) => series.length && plots.push(jp.plot({title, unit, fitted, series, limits: limit_values.filter(is_number), x: () => axis.of(c), cursor}));
   add("Speed", "m/s", [...overlay("linear_speed_m_s"), ...line("plan", "linear_speed_m_s", "plan"), ...limit_line("limit", "limit_speed_m_s")], c.limit_speed_m_s ? [] : [limits.speed_m_s]);
   add("Acceleration", "m/s²", [...overlay("linear_acceleration_m_s2"), ...line("plan", "linear_acceleration_m_s2", "plan"), ...limit_line("limit", "limit_acceleration_m_s2"), ...limit_line("limit, braking", "limit_deceleration_m_s2")],
     c.limit_acceleration_m_s2 ? [] : [limits.acceleration_m_s2, -limits.deceleration_m_s2]);
   add("Yaw rate", "rad/s", line("plan", "angular_speed_rad_s", "plan"), [limits.yaw_rate_rad_s, -limits.yaw_rate_rad_s]);
   add("Wheel torque", "N m", [...line("left", "wheel_torque_left_Nm", "plan"), ...line("right", "wheel_torque_right_Nm", "second")]);
-  add("Power", "W", [...line("battery", "battery_power_W", "plan"), ...line("motor left", "motor_power_left_W", "third"), ...line("motor right", "motor_power_right_W", "second")], [limits.battery_power_W]);
-  add("Energy", "J", [...overlay("energy_J"), ...line("plan", "energy_J", "plan")]);
+  add("Power", "W", [...banded(line("battery", "battery_power_W", "plan"), "battery_power_W"), ...line("motor left", "motor_power_left_W", "third"), ...line("motor right", "motor_power_right_W", "second")], [limits.battery_power_W]);
+  add("Energy", "J", [...overlay("energy_J"), ...banded(line("plan", "energy_J", "plan"), "energy_J")]);
+  add("State of charge", "%", banded_line("battery_fraction", "battery", 100), [], true);
+  add("Winding temperature", "°C", banded_line("winding_C", ((data.plan.winding || {}).side || "") + " motor"), [], true);
   return plots;
 };
 
@@ -211,10 +241,10 @@ jp.motion_section = function (data) {
   const c = data.trajectory;
   if (!c || !c.time_s || !c.time_s.length) return null;
   const t = c.time_s, s = jp.distance(c), v = c.linear_speed_m_s || [], turns = jp.turns_in_place(c);
-  const describe = (row) => `t ${number(t[row], 4)} s · ${number(s[row], 4)} m · leg ${c.leg ? c.leg[row] : 0} · ${number(v[row], 3)} m/s` +
+  const describe = (row) => `t ${number(t[row], 4)} s · ${number(s[row], 4)} m · leg ${(c.leg ? c.leg[row] : 0) + 1} · ${number(v[row], 3)} m/s` +
     (c.battery_power_W ? ` · ${number(c.battery_power_W[row], 3)} W` : "") + (c.energy_J ? ` · ${number(c.energy_J[row], 4)} J` : "") + (c.payload_kg ? ` · payload ${number(c.payload_kg[row], 3)} kg` : "");
   const cursor = jp.cursor(t.length, describe), axis = jp.axis(cursor), plots = jp.motion_plots(data, axis, cursor);
-  const map = c.position_x_m ? jp.floor_map({grid: data.map, x: c.position_x_m, y: c.position_y_m, heading: c.heading_rad, speed: v, marks: jp.station_marks(data, c, turns), cursor}) : null;
+  const map = c.position_x_m ? jp.floor_map({grid: data.map, x: c.position_x_m, y: c.position_y_m, heading: c.heading_rad, speed: v, marks: jp.station_marks(jp.goals_of(data.plan), c, turns), cursor}) : null;
   const scale = h("span", {class: "ramp"});
   jp.redraws.push(() => { scale.style.background = ramp_css(); });
   const whole = button("Whole map", () => { const on = whole.getAttribute("aria-pressed") !== "true"; whole.setAttribute("aria-pressed", String(on)); map.show_whole(on); }, {"aria-pressed": "false"});
@@ -226,23 +256,25 @@ jp.motion_section = function (data) {
   return section;
 };
 
-jp.station_marks = function (data, c, turns) {
-  const legs = data.plan.legs || [], leg = c.leg || [], marks = [...turns];
+jp.goals_of = (plan) => (plan.legs || []).map((one) => one.to);
+/** Start and goals of a way, and the place of a problem. */
+jp.station_marks = function (goals, c, turns, why) {
+  const leg = c.leg || [], marks = [...turns];
   const x = c.position_x_m || [], y = c.position_y_m || [];
   if (x.length) marks.push({x: x[0], y: y[0], kind: "station", text: "start"});
   for (let k = 1; k <= x.length; ++k) {
     if (k < x.length && leg[k] === leg[k - 1]) continue;
-    const name = (legs[leg[k - 1]] || {}).to;
-    marks.push({x: x[k - 1], y: y[k - 1], kind: "station", text: `${leg[k - 1] ?? 0} ${name || ""}`.trim()});
+    const at = leg[k - 1] ?? 0;
+    marks.push({x: x[k - 1], y: y[k - 1], kind: "station", text: `${at + 1} ${goals[at] || ""}`.trim()});
   }
-  const why = data.plan.infeasibility;
   if (why && is_number(why.x_m)) marks.push({x: why.x_m, y: why.y_m, kind: "problem", text: words(why.constraint)});
   return marks;
 };
 
 jp.draw_plan = function (data) {
   const plan = data.plan, good = plan.status === "optimal" || plan.status === "feasible", motion = good ? jp.motion_section(data) : null;
-  const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.station_marks(data, {}, []), whole: true, label: "Map with the place of the problem"}).element : null;
-  jp.page(jp.header(data.title || "Plan", data.subtitle || "Energy-optimal plan", plan.status, good), jp.infeasibility_box(plan), good ? jp.plan_tiles(plan, data.savings || []) : null,
+  const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.station_marks([], {}, [], plan.infeasibility), whole: true, label: "Map with the place of the problem"}).element : null;
+  const why = plan.infeasibility || {};
+  jp.page(jp.header(data.title || "Plan", good ? jp.plan_sentence(plan) : why.constraint ? `No plan: ${words(why.constraint)} on leg ${jp.leg_name(why, why.leg ?? 0)}, missed by ${with_unit(why.amount, why.unit || "")}.` : `No plan: ${plan.message}.`, plan.status, good), jp.infeasibility_box(plan), good ? [jp.plan_tiles(data), jp.quality_text(plan)] : null,
     motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.confidence_section(plan), jp.battery_section(plan), jp.winding_section(plan), jp.trust_section(plan));
 };

@@ -14,7 +14,7 @@ function ranges_of(shown) {
   for (const {xs} of shown.lines) if (xs.length) { x0 = Math.min(x0, xs[0]); x1 = Math.max(x1, xs.at(-1)); }
   if (!shown.fitted) x0 = Math.min(0, x0);
   if (shown.span) [x0, x1] = shown.span;
-  for (const {xs, ys} of shown.lines)
+  for (const {xs, ys} of [...shown.lines, ...(shown.areas || []).flatMap(({xs, low: from, high: to}) => [{xs, ys: from}, {xs, ys: to}])])
     ys.forEach((y, k) => { if (is_number(y) && xs[k] >= x0 && xs[k] <= x1) { low = Math.min(low, y); high = Math.max(high, y); } });
   if (!(high >= low)) [low, high] = [0, 1];
   for (const limit of shown.limits || []) if (near(limit, low, high)) { low = Math.min(low, limit); high = Math.max(high, limit); }
@@ -38,7 +38,7 @@ function draw_axes(context, frame, label) {
   if (label) context.fillText(label, (kLeft + width - kRight) / 2, bottom + kBottom);
 }
 
-function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dots}) {
+function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dots, apart}) {
   const {X, Y} = frame;
   context.strokeStyle = context.fillStyle = stroke; context.lineWidth = width; context.setLineDash(dash || []);
   context.beginPath();
@@ -49,8 +49,18 @@ function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dot
     drawing = true;
     if (step && k + 1 < xs.length) context.lineTo(X(xs[k + 1]), Y(y));
   });
-  context.stroke(); context.setLineDash([]);
+  if (!apart) context.stroke();
+  context.setLineDash([]);
   if (dots) ys.forEach((y, k) => { if (is_number(y)) { context.beginPath(); context.arc(X(xs[k]), Y(y), dots, 0, 7); context.fill(); } });
+}
+
+function draw_area(context, {X, Y}, {xs, low, high, fill}) {
+  context.fillStyle = fill; context.globalAlpha = 0.22;
+  context.beginPath();
+  xs.forEach((x, k) => context.lineTo(X(x), Y(low[k])));
+  for (let k = xs.length - 1; k >= 0; --k) context.lineTo(X(xs[k]), Y(high[k]));
+  context.fill();
+  context.globalAlpha = 1;
 }
 
 function draw_limits(context, {X, Y, x0, x1, low, high}, limits) {
@@ -71,6 +81,7 @@ function draw_content(context, frame, shown, height) {
   const beside = shown.span ? 0 : 4;  // dots at the ends of the axis are not cut
   context.beginPath(); context.rect(kLeft - beside, 0, frame.width - kLeft - kRight + 2 * beside, height); context.clip();
   if (shown.band) draw_band(context, frame, shown.band);
+  for (const area of shown.areas || []) draw_area(context, frame, area);
   draw_limits(context, frame, shown.limits || []);
   for (const line of shown.lines) draw_line(context, frame, line);
   if (is_number(shown.x)) {
@@ -106,7 +117,8 @@ function listen(canvas, frame_now, {point, zoom}, selected) {
 /**
  * {title, unit, keys, tall, content(), point(x), zoom(span)}: `point` is told where the pointer is, `zoom` which stretch
  * was chosen (null: all). content() gives what is drawn now, or null:
- *   lines   [{xs, ys, stroke, dash, width, step, dots}]; ys hold null where there is nothing
+ *   lines   [{xs, ys, stroke, dash, width, step, dots, apart}]; ys hold null where there is nothing; apart: dots alone
+ *   areas   [{xs, low, high, fill}], bands under the lines
  *   limits  heights of dashed lines          fitted  whether the range follows the lines alone instead of holding 0
  *   band    {xs, color_of(row)}, a strip     span    the stretch of the axis that is shown
  *   x       place of the cursor              now, label   text of the values there, of the axis

@@ -9,6 +9,7 @@
 #include "extensions/bags/tests/bag_fixture.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/run_log.hpp"
+#include "tests/app/program_result.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {
@@ -213,6 +214,44 @@ TEST_F(Bags, ClockOrderAndRepeatedMessagesAreReported) {
   const LogTables shifted = read(other.finish());
   EXPECT_TRUE(told(shifted, "other_clock"));
   EXPECT_EQ(shifted.tables[0].columns[0][0], 1e-9 * static_cast<double>(kStart_ns));
+}
+
+/// A localization does not use the wheels alone, so its pose is a measurement; a first guess is none.
+TEST_F(Bags, APoseOfALocalizationIsProposedBeforeThatOfTheOdometry) {
+  for (const int poses : {1, 60}) {
+    McapWriter bag;
+    const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+    const auto located = bag.channel(ros("/amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"));
+    for (int k = 0; k < 100; ++k) {
+      const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+      bag.message(odom, ns, odometry(ns, 0.1, 0.0));
+      if (k < poses) bag.message(located, ns, odometry(ns, 0.1, 0.0));
+    }
+    const ColumnSources columns = suggested_columns(survey_bag(written(bag.finish())));
+    EXPECT_EQ(columns.at("position_x_m").from.front(),
+              poses > 1 ? "/amcl_pose.pose.pose.position.x" : "/odom.pose.pose.position.x");
+    EXPECT_EQ(columns.at("linear_speed_m_s").from.front(), "/odom.twist.twist.linear.x");
+  }
+}
+
+/// Runs of one day: the second one begins four minutes after the first.
+TEST_F(Bags, ProposedRunsCountTheirTimeFromTheFirstStamp) {
+  const auto bag_at = [](std::uint64_t begin_ns) {
+    McapWriter bag;
+    const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+    for (std::uint64_t k = 0; k < 20; ++k)
+      bag.message(odom, begin_ns + k * kSecond_ns / 50, odometry(begin_ns, 0.1, 0.0));
+    return bag.finish();
+  };
+  const std::string first = written(bag_at(kStart_ns), "a.mcap");
+  const std::string second = written(bag_at(kStart_ns + 240 * kSecond_ns), "b.mcap");
+  const std::string said = run_program(scratch_, "check '" + second + "' '" + first + "'").out;
+  const auto of = [&](const std::string& file) { return said.find(file); };
+  EXPECT_LT(of("b.mcap"), said.find("start_time_s: 240\n")) << said;
+  EXPECT_LT(of("a.mcap"), said.find("start_time_s: 0\n")) << said;
+  EXPECT_NE(said.find("start_time_s: 240\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("start_time_s: 0\n"), std::string::npos) << said;
+  EXPECT_EQ(run_program(scratch_, "check '" + first + "'").out.find("start_time_s"), std::string::npos);
 }
 
 TEST_F(Bags, TheProposedDatasetReadsTheBag) {

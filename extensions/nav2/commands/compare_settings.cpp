@@ -24,23 +24,24 @@ class SettingsComparison : public PlanComparison {
 
   [[nodiscard]] bool is_asked() const override { return !controller_.empty(); }
 
-  int run(const Plan& plan, const AnalysisOptions& options, OutputDirectory& out,
-          const std::string& result_file) override {
+  int run(const Plan& plan, const report::MissionExtras& extras, const AnalysisOptions& options,
+          OutputDirectory& out, const std::string& result_file) override {
     const ControllerFile settings = read_controller_settings(controller_, plugin_);
     const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
     nlohmann::json result{{"schema", "joulepath/loss/1"},
                           {"of", controller_},
+                          {"mission", plan.mission},
+                          {"plan", {{"duration_s", plan.duration_s}, {"energy_J", plan.energy.total_J()}}},
                           {"parameters", settings.read},
                           {"unused", settings.unused},
                           {"not_modelled", settings.not_modelled}};
     result.update(loss_json(loss));
-    if (writes_analysis(options)) {
-      out.write(result_file, result.dump(1) + "\n");
-      out.commit();
-    }
+    if (writes_analysis(options))
+      write_analysis(out, result_file, result, report::compare_report_html({{"loss", result}}, {}, extras));
     if (prints_analysis_table(options, result)) {
       print_reading(settings);
       print_loss(std::cout, plan, loss);
+      print_analysis_place(options);
     }
     return kDone;
   }

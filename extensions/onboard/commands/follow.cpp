@@ -197,8 +197,8 @@ class FollowPlanCommand : public Command {
     const Json &stop = executed["stopped"], &limit = executed["stopped_by"];
     std::string text;
     if (!stop.is_null())
-      text = ": stopped at " + figure(stop["time_s"]) + " s on leg " + stop["leg"].dump() + ", piece " +
-             stop["piece"].dump() + " at " +
+      text = ": stopped at " + figure(stop["time_s"]) + " s on leg " +
+             std::to_string(stop["leg"].get<int>() + 1) + ", piece " + stop["piece"].dump() + " at " +
              (stop.contains("along_m") ? figure(stop["along_m"], 3) + " m"
                                        : figure(stop["turned_rad"], 3) + " rad") +
              ", (" + figure(stop["x_m"], 3) + ", " + figure(stop["y_m"], 3) + ") m";

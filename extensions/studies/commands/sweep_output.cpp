@@ -68,8 +68,8 @@ void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<st
   const std::size_t stride = 1 + totals.size() / 2000;  // dots of the plot
   for (std::size_t k = 0; k < totals.size(); k += stride)
     if (totals[k].planned)
-      page["cloud"].push_back(
-          {totals[k].sums.at("duration_s"), totals[k].sums.at("energy_J"), totals[k].is_within()});
+      page["cloud"].push_back({totals[k].sums.at("duration_s"), totals[k].sums.at("energy_J"),
+                               totals[k].is_within(), totals[k].values});
   out.write("report.html", report::page_html("sweep", {{"sweep", page}, {"title", title_of(study)}},
                                              report::kStudiesModules, "studies/sweep.js"));
   out.commit();

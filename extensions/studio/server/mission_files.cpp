@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "extensions/studio/server/json_value.hpp"
-#include "extensions/studio/server/text_edit.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/text/json_value.hpp"
+#include "scenarios/text/text_edit.hpp"
 
 namespace joulepath::studio {
 namespace {

@@ -130,7 +130,20 @@ class Studio {
     const StopScope stop([&] {
       if (!newest_.is(key, number)) throw Superseded{};
     });
-    return session_.answer(question);
+    return key.second == "plan" ? searched(asked, question) : session_.answer(question);
+  }
+
+  /// One search at a time; pages that ask the same one after the other share its answer.
+  std::string searched(json asked, const std::string& question) {
+    asked.erase("page");
+    const std::scoped_lock guard(search_);
+    stop_if_asked();
+    if (std::string content = asked.dump(); content != searched_) {
+      found_ = session_.answer(question);
+      searched_ = std::move(content);
+      ++searches_;
+    }
+    return "{\"search\":" + std::to_string(searches_) + "," + found_.substr(1);
   }
 
   MissionFiles& files_;
@@ -138,6 +151,9 @@ class Studio {
   MissionWorld floor_;
   Session session_;
   Newest newest_{};
+  std::mutex search_{};
+  long searches_{};
+  std::string searched_{}, found_{};  ///< the last question that searches ways, and its answer
   std::string port_{};
   const std::string base_ = "/" + random_token() + "/";
 };

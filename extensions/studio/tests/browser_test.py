@@ -105,11 +105,17 @@ def check_keyboard(page):
 
 
 def check_widths(page):
+    title = page.run("return document.title")
+    assert title.startswith("mission · nomad_super_scout · joulepath studio"), title
     for pixels in WIDTHS:
         page.width(pixels)
         page.until("return true")
         wide = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
         assert wide <= 0, f"at {pixels} px the page is {wide} px wider than the window"
+        bars = page.run("return [...document.querySelectorAll('main, main > *, aside *')].filter((e) => e.scrollHeight > e.clientHeight + 1 && ['auto', 'scroll'].includes(getComputedStyle(e).overflowY)).map((e) => e.className)")
+        assert not bars, f"at {pixels} px there are scroll bars beside the page's: {bars}"
+        narrow = page.run("return [...document.querySelectorAll('.field input[type=range]')].filter((e) => e.offsetParent).map((e) => e.clientWidth).filter((width) => width < 160)")
+        assert not narrow, f"at {pixels} px sliders of {narrow} px"
     page.width(1280)
 
 

@@ -70,12 +70,53 @@ def check_collisions(page):
     """A stop in the block: the draft says so while it is dragged; the search then finds no way, and undo leads back."""
     seen = draft(page, "stop b", -1.8, -0.3)
     assert seen["state"] == "draft" and seen["collides"] >= 1, seen
+    assert page.run("return document.querySelector('.tiles').classList.contains('dimmed')"), "figures of a draft that collides look like a plan's"
     ink = page.run(INK, "#floor")
     release(page)
     assert page.run("return !!studio.store.problem"), "a stop inside of a wall was planned"
     page.run("document.getElementById('undo').click()")
     page.settle()
     assert not page.run("return studio.store.problem") and page.run(INK, "#floor") != ink
+
+
+def check_drag(page):
+    """While a stop is dragged, the change since then stands at the pointer and its fields follow; afterwards nothing stands there."""
+    page.call("POST", "/timeouts", {"script": 120_000})
+    canvas = page.call("POST", "/element", {"using": "css selector", "value": "#floor"})
+    page.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    at = page.run("const h = studio.handles().find((one) => one.name === 'stop a'), box = arguments[0].getBoundingClientRect(), [x, y] = studio.view.at(h.x, h.y); return [x - box.width / 2, y - box.height / 2]", canvas)
+    act = lambda *steps: page.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": list(steps)}]})
+    move = lambda dx: {"type": "pointerMove", "duration": 20, "origin": canvas, "x": round(at[0] + dx), "y": round(at[1])}
+    act(move(0), {"type": "pointerDown", "button": 0})
+    before = page.run("return studio.store.answer.plan.energy_J")
+    act(move(-20), move(-40))
+    page.until("return studio.drag_text().includes('J,')", 20)
+    text = page.run("return studio.drag_text()").replace("\u2212", "-")
+    changed_J = page.run("return studio.store.answer.plan.energy_J") - before
+    assert changed_J < -1 and abs(float(text.split("\u202f")[0]) - changed_J) < 0.01 * abs(changed_J), (text, changed_J)
+    shown = page.run("return [...document.querySelectorAll('#chosen .field')].find((one) => one.querySelector('label').textContent.startsWith('x')).querySelector('input[type=number]').value")
+    assert abs(float(shown) - page.run("return studio.store.mission.stations.a.x_m")) < 1e-6, f"the field shows {shown}"
+    act({"type": "pointerUp", "button": 0})
+    assert page.run("return studio.drag_text()") == "", "the change stays after the drag"
+    page.settle()
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+
+
+def check_first_picture(page, server):
+    """Before its first search ends, the page draws straight lines; a second page takes the answer of the first one's search."""
+    page.call("POST", "/url", {"url": "about:blank"})
+    page.call("POST", "/url", {"url": server.address})
+    page.until("return window.studio && studio.store.answer !== null", 60)
+    ends = "return studio.store.answer.legs.map((leg) => leg.path.flatMap((piece) => piece.segments || []).length)"
+    first = page.run("return [studio.store.state, studio.store.working]"), page.run(ends)
+    assert first[0] == ["draft", "searching ways"] and first[1] == [1, 1, 1, 1, 1], first
+    page.until("return document.documentElement.dataset.ready === 'true'", 120)
+    question = page.run("return {mode: 'plan', mission: studio.store.mission, robot: studio.store.robot, paths: studio.store.ways, name: studio.store.files.name}")
+    searches = [server.post("answer", {**question, "page": name})["search"] for name in ("one", "two")]
+    assert searches[0] == searches[1], f"two pages with one mission made searches {searches}"
+    question["mission"]["stations"]["dock"]["x_m"] += 0.5
+    assert server.post("answer", {**question, "page": "two"})["search"] == searches[1] + 1, "another mission has the same answer"
 
 
 def check_limits_and_battery(page):
@@ -305,7 +346,7 @@ def check_dataset(page, found):
     assert found["verdict"] in page.run("return document.getElementById('diagnosis').textContent")
 
 
-HALL = (check_limits_and_battery, check_animation, check_collisions, check_plan_a, check_classics, check_front, check_touch, check_legs)
+HALL = (check_limits_and_battery, check_animation, check_drag, check_collisions, check_plan_a, check_classics, check_front, check_touch, check_legs)
 
 
 def check_all(program, folder, page):
@@ -321,6 +362,9 @@ def check_all(program, folder, page):
 
     named = lambda *checks: [(check.__name__, check) for check in checks]
     served(write_hall(folder, LEGS), [*named(*HALL), ("check_diagnosis", lambda one: check_diagnosis(one, folder))])
+    with Served(program, SOURCE / "scenarios/missions/warehouse_pick.yaml") as server:
+        check_first_picture(page, server)
+        print("ok: check_first_picture")
     served(write_hall(folder, VISIT), named(check_visit))
     served(write_mission(folder), named(check_mixed_frames))
     served(SOURCE / "scenarios/missions/warehouse_order.yaml", named(check_order))

@@ -7,10 +7,10 @@
 #include "extensions/studio/answer/grid_json.hpp"
 #include "extensions/studio/answer/moved_path.hpp"
 #include "extensions/studio/answer/path_json.hpp"
-#include "extensions/studio/server/json_value.hpp"
 #include "model/limit_table.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/text/json_value.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath::studio {

@@ -86,10 +86,6 @@ class StudioPage(Browser):
         """Until the mission as it is now is planned."""
         self.until("return ['planned', 'certified', 'problem'].includes(document.documentElement.dataset.state)")
 
-    def keys(self, *texts):
-        actions = [{"type": kind, "value": key} for text in texts for key in text for kind in ("keyDown", "keyUp")]
-        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": actions}]})
-
     def places(self):
         """Handles on the canvas: [name, x, y] in the window's pixels, those that lie inside of it."""
         return self.run("""const box = document.getElementById('floor').getBoundingClientRect();

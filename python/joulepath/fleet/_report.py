@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import html
 import json
+import os
+import time
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -17,11 +19,14 @@ HERE = FilePath(__file__).parent
 def report_html(source: Any, content: dict[str, Any]) -> str:
     """The page: verdict, playback, Gantt charts of robots and chargers, batteries, map, missions, executions."""
     title = html.escape(f"Fleet {content['fleet']}")
+    day = time.strftime("%Y-%m-%d", time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))))
+    about = f"{day} · joulepath {_core.version}"
     body = _charts(source, content) if "robots" in content else _helps(content)
     style = _core.page_style() + (HERE / "report.css").read_text(encoding="utf-8")
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
-            f'<meta name="generator" content="joulepath"><title>{title}</title><link rel="icon" href="data:,"><style>{style}</style></head>'
+            f'<meta name="generator" content="joulepath"><title>{title} · {about}</title><link rel="icon" href="data:,"><style>{style}</style></head>'
             f'<body><main><header class="top"><h1>{title}</h1>{_badge(content["status"])}</header>'
+            f'<p class="soft small">{about}</p>'
             f"<p>{html.escape(_sentence(content))}</p><p class=\"soft\">{html.escape(content['traffic'])}</p>{body}</main></body></html>\n")
 
 

@@ -11,6 +11,7 @@ where Chromium or chromedriver is absent, unless JOULEPATH_BROWSER=required.
 import json
 import os
 import pathlib
+import re
 import shutil
 import socket
 import subprocess
@@ -104,6 +105,11 @@ class Browser:
         self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
             move(begin), {"type": "pointerDown", "button": 0}, move(end), {"type": "pointerUp", "button": 0}]}]})
 
+    def keys(self, *texts):
+        """Keys to whatever has the focus."""
+        actions = [{"type": kind, "value": key} for text in texts for key in text for kind in ("keyDown", "keyUp")]
+        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": actions}]})
+
     def press(self, selector, key):
         element = self.call("POST", "/element", {"using": "css selector", "value": selector})
         self.call("POST", f"/element/{element[ELEMENT]}/value", {"text": key})
@@ -149,6 +155,10 @@ def check_page(browser, file, theme, plots):
     unnamed = browser.run("return [...document.querySelectorAll('button, select, input, canvas[role], [role=img]')]"
                           ".filter((e) => e.offsetParent && !(e.textContent.trim() || e.ariaLabel || e.getAttribute('aria-label'))).map((e) => e.outerHTML.slice(0, 120))")
     assert not unnamed, f"controls or figures without a name: {unnamed}"
+    sentences = browser.run("return [...document.querySelectorAll('.sentence')].map((e) => e.textContent)")
+    assert len(sentences) == 1 and sentences[0].endswith("."), f"no sentence that says the result: {sentences}"
+    title = browser.run("return document.title")
+    assert re.fullmatch(r"\S.* · (made-up data · )?\d{4}-\d\d-\d\d · joulepath \d\S*", title), f"the title {title!r} lacks mission, day or version"
     requests = browser.run("return performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !/^(data|blob):/.test(n))")
     assert not requests, f"the page fetched {requests}"
     ground = browser.run("return getComputedStyle(document.body).backgroundColor")
@@ -235,6 +245,60 @@ def check_signals(browser, file):
     assert all("model less measured" in title for title in browser.run(titles)), browser.run(titles)
 
 
+def check_keyboard(browser, file):
+    """Tab alone reaches every control, table that scrolls and map, in the order of the page, and shows where it is."""
+    browser.width(1280)
+    browser.open(file, "light")
+    wanted = browser.run("window.wanted = [...document.querySelectorAll('a[href], button, select, input, summary, [tabindex=\"0\"]')].filter((e) => e.checkVisibility()); return wanted.length")
+    visited = []
+    for _ in range(wanted):
+        browser.keys("\ue004")
+        at, seen = browser.run("const e = document.activeElement, look = getComputedStyle(e); return [wanted.indexOf(e), look.outlineStyle !== 'none' || e.type === 'range' && look.outlineWidth !== '0px']")
+        assert seen, f"{file}: the focus is invisible on {browser.run('return document.activeElement.outerHTML.slice(0, 120)')}"
+        visited.append(at)
+    assert visited == list(range(wanted)), f"{file}: Tab went through {visited} of {wanted} controls"
+
+
+def check_bands(browser, folder):
+    """The 95 % interval is drawn under what is uncertain, and named; a page without an uncertainty has none."""
+    for name, expected in (("plan", ["Energy", "Power", "State of charge"]), ("exact", [])):
+        browser.open(f"{folder}/{name}.html", "light")
+        banded = browser.run("return [...document.querySelectorAll('.plot-block')].filter((e) => e.textContent.includes('95 % interval')).map((e) => e.querySelector('h3').textContent)")
+        assert sorted(banded) == expected, f"{name}: bands on {banded}"
+    # Beside the line there is ink of the band that the same plot without it lacks.
+    ink = """const c = [...document.querySelectorAll('.plot-block')].find((e) => e.querySelector('h3').textContent === 'Energy').querySelector('canvas');
+      const p = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0;
+      for (let k = 0; k < p.length; k += 4) n += p[k + 3] > 30 && p[k + 3] < 80; return n"""
+    counts = []
+    for name in ("plan", "exact"):
+        browser.open(f"{folder}/{name}.html", "light")
+        counts.append(browser.run(ink))
+    assert counts[0] > counts[1] + 500, f"pixels of the band: {counts}"
+
+
+def check_texts(browser, folder):
+    """Legs are counted from 1 with their goal; percentages are of the profile's energy; a front is a curve."""
+    browser.open(f"{folder}/plan.html", "light")
+    text = browser.run("return document.body.innerText")
+    for words in ("1 to shelf <3> & co", "2 to dock", "Energy of a year", "Of the least energy: speed profile within 0.020"):
+        assert words in text, f"{words!r} is not on the page"
+    assert "0 to shelf" not in text and "(0.25\u202f% less)" in browser.run("return document.querySelector('.sentence').textContent")
+    far = re.findall(r"Leg (\d) .* above the bound over all paths", text)
+    assert far == ["1"], f"legs far above their bound: {far}"
+    browser.open(f"{folder}/infeasible.html", "light")
+    said = browser.run("return document.body.innerText")
+    assert "on leg 2 to dock, missed by 2.3" in said.replace("2.300", "2.3") and said.count("missed by") == 1, said
+    browser.open(f"{folder}/loss.html", "light")
+    said = browser.run("return document.querySelector('.sentence').textContent").replace("\u202f", " ")
+    assert said == "These settings: 26.00 s, 525.00 J. Same path and time, optimal: 420.00 J (20 % less). The plan: 22.00 s, 402.00 J.", said
+    browser.open(f"{folder}/front.html", "light")
+    # In the middle between two points the curve lies below their chord by what the slopes at its ends say.
+    worst = browser.run("""const {points} = joulepath.data.front, [a, b] = points, shown = joulepath.curve_of(points.map((p) => ({x: p.duration_s, y: p.energy_J, price: p.price_of_time_W})), (p) => -p.price);
+      return points.slice(1).reduce((most, p, k) => { const q = points[k], t = 0.5 * (p.duration_s + q.duration_s), y = 90 + 9000 / (t * t) + 10 * t;
+        return Math.max(most, Math.abs(shown.ys[shown.xs.findIndex((x) => Math.abs(x - t) < 1e-9)] - y) / y); }, 0)""")
+    assert worst < 5e-4, f"the curve is {worst} beside the law of its points"
+
+
 def check_without_scripts(browser, file, said):
     """With scripts off the numbers stand in tables."""
     browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": True}})
@@ -282,7 +346,10 @@ def main():
             check_without_scripts(browser, f"{folder}/plan.html", ("energy J", "duration s"))
             check_without_scripts(browser, f"{folder}/diagnosis.html", ("rolling_resistance", "interval 95", "probability told apart"))
             check_diagnosis(browser, f"{folder}/diagnosis.html")
-            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("front", 5), ("batch", 0)):
+            check_bands(browser, folder)
+            check_texts(browser, folder)
+            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("loss", 0), ("front", 2), ("batch", 0)):
+                check_keyboard(browser, f"{folder}/{kind}.html")
                 for theme in ("dark", "light"):
                     check_page(browser, f"{folder}/{kind}.html", theme, plots)
                     print(f"ok: {kind}, {theme}")

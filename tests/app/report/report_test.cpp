@@ -22,6 +22,27 @@ TEST(Report, HoldsItsDataUnchanged) {
   EXPECT_EQ(data.at("trajectory").at("time_s").size(), sample::trajectory().at("time_s").size());
 }
 
+TEST(Report, TheTitleNamesMissionRobotDayAndVersion) {
+  ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
+  const std::string html =
+      plan_report_html(sample::plan(), {}, {.title = "round", .subtitle = "robot · map.yaml"});
+  ::unsetenv("SOURCE_DATE_EPOCH");
+  EXPECT_NE(html.find("<title>round · robot · map.yaml · 1970-01-02 · joulepath "), std::string::npos);
+}
+
+/// A page holds the ends of the interval, and none where nothing is stated.
+TEST(Report, BandsAreNinetyFivePercentOfTheirSigmas) {
+  PlanExtras extras;
+  EXPECT_FALSE(
+      embedded_data(plan_report_html(sample::plan(), sample::trajectory(), extras)).contains("bands"));
+  extras.bands.energy_J = PlanBand{{0.0, 1.0}, {0.0, 10.0}, {0.0, 1.0}};
+  const auto bands =
+      embedded_data(plan_report_html(sample::plan(), sample::trajectory(), extras)).at("bands");
+  EXPECT_EQ(bands.size(), 1u);
+  EXPECT_NEAR(bands.at("energy_J").at("low")[1], 10 - 1.96, 1e-3);
+  EXPECT_NEAR(bands.at("energy_J").at("high")[1], 10 + 1.96, 1e-3);
+}
+
 TEST(Report, NamesThatLookLikeMarkupCannotCloseTheScript) {
   auto plan = sample::plan();
   plan["legs"][0]["to"] = "</script><script>alert(1)</script><!--";
@@ -50,7 +71,7 @@ TEST(Report, OfADiagnosisCarriesTheWordsOfEachVerdict) {
 
 TEST(Report, FetchesNothing) {
   const std::string html =
-      diagnosis_report_html(sample::diagnosis(), {"", map_picture(sample::hall()), sample::runs()});
+      diagnosis_report_html(sample::diagnosis(), {"", "", map_picture(sample::hall()), sample::runs()});
   for (const char* fetch :
        {"<script src", "<link rel=\"stylesheet\"", "@import", "url(http", "fetch(", "<img src=\"http"})
     EXPECT_EQ(html.find(fetch), std::string::npos) << fetch;
@@ -89,8 +110,7 @@ TEST(Report, SignalsOfManyRunsStaySmall) {
 }
 
 TEST(Report, SameInputGivesSameBytes) {
-  EXPECT_EQ(front_report_html(sample::front(), sample::profiles()),
-            front_report_html(sample::front(), sample::profiles()));
+  EXPECT_EQ(front_report_html(sample::front(), {}), front_report_html(sample::front(), {}));
 }
 
 TEST(Report, NumbersThatAreNotFiniteBecomeGaps) {

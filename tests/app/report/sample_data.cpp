@@ -88,6 +88,8 @@ json plan() {
                 {"distance_m", 10 * share},
                 {"payload_kg", payload_kg},
                 {"price_of_time_W", 1.9},
+                {"path_gap_percent", 12},
+                {"far_above_path_bound", share > 0.5},
                 {"energy_by_cause_J", part}};
   };
   return {{"schema", "joulepath/plan/1"},
@@ -130,12 +132,28 @@ json plan() {
              {"parameters", {{"speed_m_s", 0.8}, {"acceleration_m_s2", 0.4}}}}}}};
 }
 
+PlanBands bands() {
+  PlanBands bands{.battery_power_W = PlanBand{}, .energy_J = PlanBand{}, .battery_fraction = PlanBand{}};
+  const Columns rows = trajectory();
+  const auto add = [](PlanBand& band, double time_s, double value, double sigma) {
+    band.time_s.push_back(time_s), band.value.push_back(value), band.sigma.push_back(sigma);
+  };
+  for (std::size_t k = 0; k < rows.at("time_s").size(); ++k) {
+    const double time_s = rows.at("time_s")[k], energy_J = rows.at("energy_J")[k];
+    add(*bands.battery_power_W, time_s, rows.at("battery_power_W")[k], 1.0);
+    add(*bands.energy_J, time_s, energy_J, 0.1 * energy_J);
+    add(*bands.battery_fraction, time_s, 0.9 - 1e-6 * energy_J, 1e-7 * energy_J);
+  }
+  return bands;
+}
+
 json infeasible_plan() {
   return {{"schema", "joulepath/plan/1"},
           {"status", "infeasible"},
           {"infeasibility",
            {{"constraint", "deadline"},
             {"leg", 1},
+            {"to", "dock"},
             {"arc_length_m", 3.1},
             {"x_m", 4.0},
             {"y_m", 2.2},
@@ -265,6 +283,17 @@ json compare() {
              {"duration_s", 22},
              {"parameters", json::array({{{"speed_m_s", 0.7}}, {{"yaw_rate_rad_s", 1.2}}})}},
             {{"name", "s_curve"}, {"feasible", false}, {"reason", "cannot make the time"}}}}};
+}
+
+json loss() {
+  return {{"of", "nav2_params.yaml"},
+          {"plan", {{"duration_s", 22}, {"energy_J", 402}}},
+          {"parameters", {"controller_server.FollowPath.desired_linear_vel: 0.5"}},
+          {"unused", json::array()},
+          {"not_modelled", json::array()},
+          {"own_time", {{"duration_s", 26}, {"energy_J", 525}, {"optimum_J", 420}, {"lost_percent", 20}}},
+          {"plan_time", nullptr},
+          {"broken_limit", ""}};
 }
 
 std::vector<NamedColumns> profiles() {

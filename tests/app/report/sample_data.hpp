@@ -10,11 +10,13 @@ namespace joulepath::report::sample {
 
 [[nodiscard]] Columns trajectory(double sample_period_s = 0.02);
 [[nodiscard]] nlohmann::json plan();
+[[nodiscard]] PlanBands bands();
 [[nodiscard]] nlohmann::json infeasible_plan();
 [[nodiscard]] OccupancyGrid hall();
 [[nodiscard]] nlohmann::json diagnosis();
 [[nodiscard]] std::vector<RunComparison> runs();
 [[nodiscard]] nlohmann::json compare();
+[[nodiscard]] nlohmann::json loss();
 [[nodiscard]] std::vector<NamedColumns> profiles();
 [[nodiscard]] nlohmann::json front();
 [[nodiscard]] nlohmann::json batch();

@@ -18,12 +18,19 @@ int main(int argc, char** argv) {
   joulepath::Limits limits;
   limits.speed_m_s = 1.0;
   limits.acceleration_m_s2 = limits.deceleration_m_s2 = 0.5;
-  write("plan", plan_report_html(sample::plan(), sample::trajectory(),
-                                 {"Sample round", "made-up data", map, limits, {sample::profiles().back()}}));
+  PlanExtras extras{"Sample round", "made-up data", map, limits, {sample::profiles().back()}};
+  write("exact", plan_report_html(sample::plan(), sample::trajectory(), extras));
+  extras.bands = sample::bands();
+  extras.operation = {.missions_per_day = 40, .price_per_kWh = 0.3};
+  write("plan", plan_report_html(sample::plan(), sample::trajectory(), extras));
   write("infeasible",
         plan_report_html(sample::infeasible_plan(), {}, {"Sample round", "made-up data", map, {}, {}}));
-  write("diagnosis", diagnosis_report_html(sample::diagnosis(), {"Sample runs", map, sample::runs()}));
-  write("compare", compare_report_html(sample::compare(), sample::profiles()));
-  write("front", front_report_html(sample::front(), sample::profiles()));
+  write("diagnosis",
+        diagnosis_report_html(sample::diagnosis(), {"Sample runs", "made-up data", map, sample::runs()}));
+  const MissionExtras mission{
+      "Sample round", "made-up data", map, sample::trajectory(), {"shelf <3> & co", "dock"}};
+  write("compare", compare_report_html(sample::compare(), sample::profiles(), mission));
+  write("loss", compare_report_html({{"loss", sample::loss()}}, {}, mission));
+  write("front", front_report_html(sample::front(), mission));
   write("batch", batch_report_html(sample::batch()));
 }

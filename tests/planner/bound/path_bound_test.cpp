@@ -83,7 +83,7 @@ TEST(PathBounds, GivenPathsHaveAReasonInstead) {
   const Plan plan = planned(mission);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   EXPECT_EQ(plan.legs.back().path_bound->reason, "the leg's path is given");
-  EXPECT_EQ(plan.path_bound->reason, "leg 2: the leg's path is given");
+  EXPECT_EQ(plan.path_bound->reason, "leg 3 (path): the leg's path is given");
   EXPECT_FALSE(plan.path_bound->energy_J);
   EXPECT_TRUE(plan.legs.front().path_bound->energy_J);
 }

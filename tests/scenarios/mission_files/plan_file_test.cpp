@@ -63,6 +63,28 @@ TEST(PlanFile, NoRobotHasAnIntervalThatItsFileDoesNotState) {
 }
 
 /// The stated capacity is then the expected energy, which a bound exceeds.
+/// One threshold for readers and pages: far above the bound, with no corner that explains it.
+TEST(PlanFile, SaysWhichLegsLieFarAboveTheirBound) {
+  using Part = PathBound::Part;
+  const auto says = [](double bound_J, Part part) {
+    LegPlan leg{.to = "dock", .path_bound = PathBound{.energy_J = bound_J, .part = part}};
+    leg.energy.copper_J = 100;
+    return Json::parse(plan_json_text({.status = SolveStatus::optimal, .legs = {leg}}))
+        .at("legs")
+        .at(0)
+        .at("far_above_path_bound")
+        .get<bool>();
+  };
+  EXPECT_TRUE(says(80, Part::line));
+  EXPECT_TRUE(says(80, Part::headings));
+  EXPECT_FALSE(says(80, Part::corners));
+  EXPECT_FALSE(says(90, Part::line));
+  EXPECT_FALSE(Json::parse(plan_json_text({.status = SolveStatus::optimal, .legs = {LegPlan{}}}))
+                   .at("legs")
+                   .at(0)
+                   .contains("far_above_path_bound"));
+}
+
 TEST(PlanFile, ACapacityWithoutUncertaintyIsTheExpectedEnergy) {
   Robot robot = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml");
   const Json known = plan_json(robot);

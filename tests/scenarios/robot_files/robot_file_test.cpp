@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "scenarios/robot_files/implausible_constants.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
+#include "tests/support/nomad.hpp"
 
 namespace joulepath {
 namespace {
@@ -177,6 +181,48 @@ TEST(RobotFile, AnErrorNamesFileLineColumnKeyFoundAcceptedAndTheNearestKey) {
         "r.yaml:2:3: geometry.wheel_radus_m: found an unknown key, accepted: wheel_radius_m, half_track_m, "
         "center_of_mass_offset_m (did you mean wheel_radius_m?)");
   }
+}
+
+/// A corrected robot's file is its own file: only the lines of what changed differ, with six digits.
+TEST(RobotFile, ACorrectionKeepsTheFilesComments) {
+  const std::string file = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
+  const auto lines_of = [](const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+  };
+  std::ifstream stream(file);
+  const std::string own{std::istreambuf_iterator<char>(stream), {}};
+  Robot robot = read_robot(file);
+  EXPECT_EQ(robot_text_like(file, robot), own) << "nothing changed";
+  robot.motor.left.friction_torque_Nm *= 1.123456789;
+  robot.motor.left.resistance_ohm = robot.motor.right.resistance_ohm = 2.987654321;
+  const std::string text = robot_text_like(file, robot);
+  const auto before = lines_of(own), after = lines_of(text);
+  ASSERT_EQ(before.size(), after.size()) << text;
+  std::size_t differ = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) differ += before[k] != after[k];
+  EXPECT_LE(differ, 2u) << text;
+  EXPECT_NE(text.find("2.98765"), std::string::npos) << text;
+  EXPECT_EQ(text.find("2.987654"), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '#'), std::count(own.begin(), own.end(), '#'));
+  const Robot again = robot_from(Document::parse(text, file));
+  EXPECT_NEAR(again.motor.left.friction_torque_Nm, robot.motor.left.friction_torque_Nm, 1e-6);
+  EXPECT_EQ(again.motor.right.friction_torque_Nm, robot.motor.right.friction_torque_Nm);
+}
+
+/// A file that cannot be edited in place is written anew.
+TEST(RobotFile, ACorrectionOfANotationThatCannotBeEditedIsWhole) {
+  const ScratchDirectory scratch;
+  std::string text = robot_text(testing::nomad());
+  const std::string aliased = "name: &n nomad\n";
+  text.replace(text.find("name:"), text.find('\n', text.find("name:")) + 1 - text.find("name:"), aliased);
+  const std::string file = scratch.write("robot.yaml", text);
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 12.5;
+  EXPECT_EQ(robot_from(Document::parse(robot_text_like(file, robot), file)).power.standby_W, 12.5);
+  EXPECT_EQ(robot_text_like("", robot), robot_text(robot));
 }
 
 }  // namespace

@@ -21,15 +21,15 @@ using Json = nlohmann::json;
 const std::string kData = JOULEPATH_SOURCE_DIR "/tests/data/";
 
 /// A document as an editor's YAML reader passes it to a JSON Schema validator.
-Json json_of(const Value& value) {
+Json editor_json(const Value& value) {
   if (value.kind == Value::Kind::list) {
     Json list = Json::array();
-    for (const auto& item : value.items) list.push_back(json_of(item));
+    for (const auto& item : value.items) list.push_back(editor_json(item));
     return list;
   }
   if (value.kind == Value::Kind::map) {
     Json map = Json::object();
-    for (const auto& entry : value.entries) map[entry.key] = json_of(entry.value);
+    for (const auto& entry : value.entries) map[entry.key] = editor_json(entry.value);
     return map;
   }
   if (value.kind == Value::Kind::null) return nullptr;
@@ -131,7 +131,7 @@ TEST(JsonSchema, AgreesWithTheReadersOnGoodAndBrokenFiles) {
       } catch (const ConfigError&) {
         accepted = false;
       }
-      EXPECT_EQ(valid(json_of(document->root().value()), Json::parse(json_schema(*kind))), accepted)
+      EXPECT_EQ(valid(editor_json(document->root().value()), Json::parse(json_schema(*kind))), accepted)
           << entry.path();
       (accepted ? kinds_accepted : kinds_refused).insert(kind->name);
     }

@@ -2,6 +2,7 @@
  * Answers of the planner. Drafts come from WebAssembly where the page has it, from the program otherwise; a plan is
  * certified by the program where there is one. Design: docs/decisions/0702-studio-and-reports.md
  */
+import {legs, place_after, straight} from "studio/editing.js";
 import {emit, has_legs, on, store} from "studio/store.js";
 
 const core_js = document.getElementById("core-js").textContent.replaceAll("<\\/script", "</script"), core_wasm = document.getElementById("core-wasm").textContent;
@@ -90,13 +91,13 @@ function ordered_mission() {
   return {...mission, legs: store.answer.plan.legs.map((leg) => ({to: leg.to, payload_kg: leg.payload_kg, dwell_s: leg.dwell_s, deadline_s: latest(leg.to)}))};
 }
 
-/** One question about the mission as it is now. */
-export async function ask(mode, extra = {}) {
+/** One question about the mission as it is now; `at_once`: the page's own planner may not be open yet. */
+export async function ask(mode, extra = {}, at_once = false) {
   const mission = mode !== "plan" && is_ordered() && store.answer ? ordered_mission() : store.mission;
   const question = JSON.stringify({mode, page: page_name, name: store.files.name, mission, robot: store.robot, paths: store.ways, ...extra});
   const draft = mode === "draft";
   // An order is a file, which the program alone reads.
-  const by_program = store.served && (!draft || !has_core() || store.mission.order || studio_draft().by_program);
+  const by_program = store.served && (!draft || at_once || !has_core() || store.mission.order || studio_draft().by_program);
   if (!by_program && !has_core()) return {error: {message: "this page contains no planner: open the mission with joulepath studio"}};
   const text = by_program ? await in_program(question) : await in_core(mode, question, !draft);
   return JSON.parse(text);
@@ -177,7 +178,16 @@ on("edit", ({release}) => {
   timer = setTimeout(settle, 60);
 });
 
+/** A picture while the first search runs: a draft along straight lines between the stops. */
+async function sketch() {
+  if (!has_legs() || ways_are_known()) return;
+  const answer = await ask("draft", {samples: 300, paths: legs().map((leg, k) => (leg.to ? straight(place_after(k - 1), place_after(k)) : null))}, true);
+  if (store.answer || store.edits || !answer.motion) return;
+  Object.assign(store, {answer, verdict: answer.plan, state: "draft"});
+  emit("answer");
+}
+
 /** The first plan of the page. */
 export function start() {
-  if (store.first_answer) { take(store.first_answer, "planned", 0); emit("settled"); } else settle();
+  if (store.first_answer) { take(store.first_answer, "planned", 0); emit("settled"); } else { sketch(); settle(); }
 }

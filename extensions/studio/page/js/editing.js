@@ -156,11 +156,12 @@ export function remove_waypoint(k, joint) {
   });
 }
 
-const straight = (from, to) => {
+export const straight = (from, to) => {
   const length = Math.max(0.02, Math.hypot(to.x_m - from.x_m, to.y_m - from.y_m));
   return [{reverse: false, segments: [{arc: [from.x_m, from.y_m, Math.atan2(to.y_m - from.y_m, to.x_m - from.x_m), length, 0, 0]}]}];
 };
-const place_after = (k) => {
+/** Where leg k ends; -1: the start. */
+export const place_after = (k) => {
   const leg = legs()[k];
   if (!leg) return start_pose();
   if (leg.to) return store.mission.stations[leg.to];

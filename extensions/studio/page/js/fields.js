@@ -48,8 +48,15 @@ export function number_field({file, path, value, label, unit, says, optional}) {
   slider.addEventListener("change", () => put(slider.value, true));
   box.addEventListener("change", () => { if (!put(box.value, true)) slider.value = box.value; });
   const description = says || schema.description;
-  return h("div", {class: "field"}, h("label", {for: id}, label || key.words, description ? h("span", {class: "unseen", id: id + "d"}, description) : null), slider, box, h("span", {class: "unit", title: description || null}, unit || unit_of(path)),
+  const field = h("div", {class: "field"}, h("label", {for: id}, label || key.words, description ? h("span", {class: "unseen", id: id + "d"}, description) : null), slider, box, h("span", {class: "unit", title: description || null}, unit || unit_of(path)),
     optional ? h("button", {type: "button", class: "link", "aria-label": `remove ${label || key.words}`, onclick: () => set_value(file, path, undefined)}, "×") : null);
+  field.follow = () => {  // what changes elsewhere: a drag on the map
+    const now = path.reduce((at, one) => (at === undefined || at === null ? undefined : at[one]), store[file]);
+    if (!is_number(now) || field.contains(document.activeElement)) return;
+    slider.value = now;
+    box.value = short_number(now);
+  };
+  return field;
 }
 const short_number = (value) => Number(Number(value).toPrecision(8));
 

@@ -5,6 +5,7 @@ import {draw_cross, draw_picture, draw_robot, draw_scale, draw_text, draw_way, f
 import {on, store} from "studio/store.js";
 import {color, free_color, is_dark, limit_color, on_theme, ramp} from "page/theme.js";
 import {handles} from "studio/handles.js";
+import {drag_text} from "studio/summary.js";
 
 const kOccupied_percent = 65, kTools_px = 40;  // the buttons over the top of the map
 
@@ -68,6 +69,19 @@ function draw_problems(context) {
   spots.forEach((spot) => draw_cross(context, view, spot.x_m, spot.y_m));
 }
 
+/** Energy and time since the drag began, beside the pointer. */
+function draw_drag(context) {
+  const text = drag_text();
+  if (!text) return;
+  context.font = "600 14px system-ui, sans-serif";
+  const [px, py] = store.drag.at, width = context.measureText(text).width + 14;
+  const x = Math.min(px + 18, view.width - width - 4), y = Math.max(py - 34, 4);
+  context.fillStyle = color("card"); context.strokeStyle = color("line"); context.lineWidth = 1;
+  context.beginPath(); context.rect(x, y, width, 24); context.fill(); context.stroke();
+  context.fillStyle = color("ink"); context.textAlign = "left"; context.textBaseline = "middle";
+  context.fillText(text, x + 7, y + 12);
+}
+
 let queued = false;
 export function draw() {
   if (queued) return;
@@ -84,7 +98,7 @@ export function draw() {
     if (store.kept) draw_motion(context, store.kept.answer, true);
     if (store.answer) draw_motion(context, store.answer, false);
     handles().forEach((handle) => draw_handle(context, handle));
-    draw_robot_now(context); draw_problems(context); draw_scale(context, view);
+    draw_robot_now(context); draw_problems(context); draw_scale(context, view); draw_drag(context);
   });
 }
 ["answer", "edit", "selection", "cursor", "view"].forEach((event) => on(event, draw));

@@ -8,7 +8,7 @@ import {handles} from "studio/handles.js";
 import "studio/pointing.js";
 import {plots_panel} from "studio/plots.js";
 import {timeline} from "studio/timeline.js";
-import {causes, collides, leg_list, status_text, tiles} from "studio/summary.js";
+import {causes, collides, drag_text, leg_list, status_text, tiles} from "studio/summary.js";
 import {fields_of} from "studio/fields.js";
 import {selection_panel} from "studio/selection.js";
 import {front_panel} from "studio/front.js";
@@ -64,6 +64,7 @@ function robot_panel() {
 }
 
 function start() {
+  document.title = [store.files.name, store.robot.name, `joulepath studio ${store.version_of_program || ""}`.trim()].filter(Boolean).join(" · ");
   const offline = !store.served ? h("p", {class: "soft small"}, answers.has_core() ? "Without the program no new routes are searched: ways follow their stops, and drawn paths can be edited." : "This page was written by a build without WebAssembly: it shows the plan and cannot change it.") : null;
   const diagnosis = diagnosis_panel();
   document.getElementById("app").replaceChildren(top_bar(),
@@ -82,7 +83,7 @@ function start() {
   draw();
 }
 // What tests and benchmarks look at.
-window.studio = {store, answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))};
+window.studio = {store, answers, view, handles, page_text, drag_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))};
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;
 start();

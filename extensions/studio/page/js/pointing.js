@@ -26,6 +26,7 @@ canvas.addEventListener("pointerdown", (event) => {
   if (pointers.size === 2) { dragged = pan = null; pinch = spread(); return; }
   const handle = handle_at(view, px, py, event.pointerType === "touch" ? 26 : 14);
   if (handle) {
+    store.drag = store.answer && {from: store.answer.plan, at: [px, py]};
     dragged = {selects: handle.selects, gesture: "drag" + ++gestures, moved: false, off: [px - view.at(handle.x, handle.y)[0], py - view.at(handle.x, handle.y)[1]]};
     select(handle.selects);
   } else {
@@ -45,6 +46,7 @@ canvas.addEventListener("pointermove", (event) => {
     const handle = chosen();
     if (!handle) return;
     dragged.moved = true;
+    if (store.drag) store.drag.at = [px, py];
     handle.drag(...view.back(px - dragged.off[0], py - dragged.off[1]), {of: dragged.gesture, release: false});
   } else if (pan) {
     if (Math.hypot(px - pan[0], py - pan[1]) < 3 && !pan[2]) return;
@@ -63,7 +65,8 @@ function lift(event) {
   if (dragged && dragged.moved) change(() => {}, {of: dragged.gesture, release: true});
   else if (pan && !pan[2]) { const time_s = time_near(px, py); if (time_s !== null) set_cursor(time_s); else select({kind: "none"}); }
   if (pointers.size < 2) pinch = null;
-  if (!pointers.size) dragged = pan = null;
+  if (!pointers.size) dragged = pan = store.drag = null;
+  draw();
 }
 canvas.addEventListener("pointerup", lift);
 canvas.addEventListener("pointercancel", lift);

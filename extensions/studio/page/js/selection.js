@@ -62,6 +62,7 @@ export function selection_panel() {
     shown = shape();
   };
   on("selection", build);
+  on("edit", () => body.querySelectorAll(".field").forEach((field) => { if (field.follow) field.follow(); }));
   on("edit", ({release}) => { if (shape() !== shown || (release && !body.contains(document.activeElement))) build(); });
   on("settled", () => { if (!body.contains(document.activeElement)) build(); });
   build();

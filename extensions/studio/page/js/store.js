@@ -14,6 +14,7 @@ export const store = {
   problem: "",       // why there is no newer answer
   working: "",       // what is being computed
   selection: {kind: "none"},
+  drag: null,        // while a handle is dragged: {from: the plan when it began, at: [x, y] of the pointer on the canvas}
   cursor_s: 0,
   kept: null,        // plan A of a comparison: {answer, name}
   classics: null,    // classic profiles beside the plan

@@ -17,6 +17,14 @@ export function status_text() {
 
 const tile = (what, id) => { const value = h("div", {class: "value", id}), more = h("div", {class: "more"}); return {element: h("div", {class: "tile"}, h("div", {class: "what"}, what), value, more), value, more}; };
 
+/** What changed since a drag began. */
+export function drag_text() {
+  const {drag, answer} = store;
+  if (!drag || !answer || answer.plan === drag.from) return "";
+  const by = (key, unit, digits) => `${signed(answer.plan[key] - drag.from[key], digits)}\u202f${unit}`;
+  return collides() ? "collides" : `${by("energy_J", "J", 3)}, ${by("duration_s", "s", 3)}`;
+}
+
 export function tiles() {
   const energy = tile("Energy", "energy"), time = tile("Time", "time"), price = tile("Price of a second", "price"), battery = tile("Battery at the end", "battery"), gap = tile("Gap on these paths", "gap");
   const show = () => {
@@ -37,7 +45,9 @@ export function tiles() {
   };
   on("answer", show);
   on("view", show);
-  return h("div", {class: "tiles", "aria-live": "off"}, [energy, time, price, battery, gap].map((one) => one.element));
+  const all = h("div", {class: "tiles", "aria-live": "off"}, [energy, time, price, battery, gap].map((one) => one.element));
+  on("answer", () => all.classList.toggle("dimmed", collides()));
+  return all;
 }
 
 const kCauses = [["coulomb_friction", "plan"], ["viscous_friction", "sixth"], ["copper", "second"], ["not_recovered", "fifth"], ["kinetic", "third"], ["standby", "soft"]];

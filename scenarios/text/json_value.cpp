@@ -1,4 +1,4 @@
-#include "extensions/studio/server/json_value.hpp"
+#include "scenarios/text/json_value.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include "model/text_of_list.hpp"
 
-namespace joulepath::studio {
+namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -25,7 +25,7 @@ bool is_plain(const std::string& text) {
   return true;
 }
 
-std::string word(const std::string& text) { return is_plain(text) ? text : Json(text).dump(); }
+std::string flow_word(const std::string& text) { return is_plain(text) ? text : Json(text).dump(); }
 
 }  // namespace
 
@@ -55,10 +55,10 @@ std::string flow_text(const Json& value) {
     return "[" + text + "]";
   }
   if (value.is_object()) {
-    for (const auto& [key, item] : value.items()) add(word(key) + ": " + flow_text(item));
+    for (const auto& [key, item] : value.items()) add(flow_word(key) + ": " + flow_text(item));
     return "{" + text + "}";
   }
-  if (value.is_string()) return word(value.get<std::string>());
+  if (value.is_string()) return flow_word(value.get<std::string>());
   if (value.is_number_float() &&
       value.get<double>() == static_cast<double>(static_cast<long>(value.get<double>())) &&
       std::abs(value.get<double>()) < 1e15)
@@ -66,4 +66,4 @@ std::string flow_text(const Json& value) {
   return value.dump();
 }
 
-}  // namespace joulepath::studio
+}  // namespace joulepath

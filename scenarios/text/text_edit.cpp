@@ -1,19 +1,19 @@
-#include "extensions/studio/server/text_edit.hpp"
+#include "scenarios/text/text_edit.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "extensions/studio/server/json_value.hpp"
-#include "extensions/studio/server/text_spans.hpp"
+#include "scenarios/text/json_value.hpp"
+#include "scenarios/text/text_spans.hpp"
 
-namespace joulepath::studio {
+namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kMostEdits = 4000;
 
 /// Compares values; the order of keys has no meaning.
-bool same(const Json& a, const Json& b) { return nlohmann::json(a) == nlohmann::json(b); }
+bool same_values(const Json& a, const Json& b) { return nlohmann::json(a) == nlohmann::json(b); }
 
 /// As the first line of a text ends.
 std::string line_break_of(const std::string& text) {
@@ -29,7 +29,7 @@ class Edit {
   /// The text after one edit; absent where this value is already as wanted.
   std::optional<std::string> towards(const Value& value, const Json& wanted, bool in_flow) const {
     const Json now = json_of(value);
-    if (same(now, wanted)) return std::nullopt;
+    if (same_values(now, wanted)) return std::nullopt;
     const bool inside = in_flow || spans_.is_flow(value);
     if (value.kind == Value::Kind::map && wanted.is_object() && !value.entries.empty())
       return map_towards(value, wanted, inside);
@@ -89,10 +89,10 @@ class Edit {
   std::optional<std::string> list_towards(const Value& list, const Json& wanted, bool in_flow) const {
     const Json now = json_of(list);
     std::size_t k = 0;
-    while (k < now.size() && k < wanted.size() && same(now[k], wanted[k])) ++k;
+    while (k < now.size() && k < wanted.size() && same_values(now[k], wanted[k])) ++k;
     const auto found = [k](const Json& in, const Json& item) {
       return static_cast<std::size_t>(std::find_if(in.begin() + static_cast<std::ptrdiff_t>(k), in.end(),
-                                                   [&](const Json& one) { return same(one, item); }) -
+                                                   [&](const Json& one) { return same_values(one, item); }) -
                                       in.begin());
     };
     if (k == wanted.size()) return without_item(list, k, in_flow);
@@ -170,4 +170,4 @@ std::string with_values(const std::string& text, const std::string& file, const 
                      "the file was not changed"});
 }
 
-}  // namespace joulepath::studio
+}  // namespace joulepath

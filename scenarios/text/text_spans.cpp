@@ -1,8 +1,8 @@
-#include "extensions/studio/server/text_spans.hpp"
+#include "scenarios/text/text_spans.hpp"
 
 #include <algorithm>
 
-namespace joulepath::studio {
+namespace joulepath {
 
 TextSpans::TextSpans(const std::string& text) : text_(text) {
   lines_.push_back(0);
@@ -85,4 +85,4 @@ Span TextSpans::of(const Value& value, bool in_flow) const {
   return {begin, plain_end(begin, in_flow)};
 }
 
-}  // namespace joulepath::studio
+}  // namespace joulepath

@@ -4,7 +4,7 @@
 
 #include "scenarios/text/document.hpp"
 
-namespace joulepath::studio {
+namespace joulepath {
 
 /// Places of values in a text, as offsets.
 struct Span {
@@ -36,4 +36,4 @@ class TextSpans {
   std::vector<std::size_t> lines_{};
 };
 
-}  // namespace joulepath::studio
+}  // namespace joulepath

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace joulepath::studio {
+namespace joulepath {
 
 /// The text of a file (YAML or JSON by its name) with other values. Only the text of changed values is
 /// replaced, so comments, order and notation stay. The result parses to exactly `wanted`. Throws ConfigError
@@ -11,4 +11,4 @@ namespace joulepath::studio {
 [[nodiscard]] std::string with_values(const std::string& text, const std::string& file,
                                       const nlohmann::ordered_json& wanted);
 
-}  // namespace joulepath::studio
+}  // namespace joulepath
