@@ -9,14 +9,6 @@
 // Design: docs/decisions/0400-visits-and-charging.md
 // Method: [HeldKarp1962], [DesrochersSoumis1988]
 namespace joulepath {
-namespace {
-
-/// What a leg that no plan had is taken to cost, of the table's estimate: seen are 0.5 to 0.95 between named
-/// headings, alike within a mission, and 0.85 to 1.05 else.
-constexpr double kLeastOfEstimate = 0.8;
-
-}  // namespace
-
 double payload_after_kg(const VisitRequest& visit, double payload_kg) {
   switch (visit.kind) {
     case VisitRequest::Kind::pick:
@@ -59,7 +51,7 @@ void VisitSearch::learn(const std::vector<std::size_t>& order, const Plan& plan)
     const LegPlan& leg = plan.legs[k];
     const double planned_J =
         leg.energy.total_J() - standby_W_ * leg.dwell_s + table_.price_W() * leg.duration_s;
-    table_.learn(from, order[k], payload_kg, planned_J, kLeastOfEstimate);
+    table_.learn(from, order[k], payload_kg, planned_J);
     payload_kg = std::max(0.0, payload_after_kg(visits_[order[k]], payload_kg));
     from = order[k];
   }

@@ -12,6 +12,9 @@ namespace {
 /// Prices (W) above the mission's at which legs are measured if windows need faster drives.
 constexpr std::array<double, 6> kPrices_W{kNoLimit, 100, 30, 10, 3, 1};
 
+/// Seen are 0.5 to 0.95 between named headings, alike within a mission, and 0.85 to 1.05 else.
+constexpr double kLeastOfEstimate = 0.8;
+
 double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes 0, 1/2, 1
   return at[0] * (1 - fraction) * (1 - 2 * fraction) + at[1] * 4 * fraction * (1 - fraction) +
          at[2] * fraction * (2 * fraction - 1);
@@ -103,9 +106,10 @@ TimeFront VisitTable::front(std::size_t from, std::size_t to, double payload_kg)
   return estimate(from, to, payload_kg, cost(from, to).factor.value_or(rest_));
 }
 
-void VisitTable::learn(std::size_t from, std::size_t to, double payload_kg, double planned_J, double rest) {
-  table_[from * count_ + to].factor = planned_J / estimate(from, to, payload_kg, 1).least_J();
-  rest_ = rest;
+void VisitTable::learn(std::size_t from, std::size_t to, double payload_kg, double planned_J) {
+  const double factor = planned_J / estimate(from, to, payload_kg, 1).least_J();
+  table_[from * count_ + to].factor = factor;
+  rest_ = std::min({rest_, kLeastOfEstimate, factor});
 }
 
 }  // namespace joulepath

@@ -67,8 +67,9 @@ TEST(VisitOrder, NoOtherOrderTakesLessWhenPlannedInFull) {
     const Plan other = visit_plan(fixed);
     ASSERT_FALSE(other.legs.empty()) << other.message;
     EXPECT_GE(other.energy.total_J(), 0.9999 * chosen.energy.total_J());
-    if (std::is_sorted(order.begin(), order.end()))
+    if (std::is_sorted(order.begin(), order.end())) {
       EXPECT_NEAR(chosen.visit->given_order_J.value(), other.energy.total_J(), 0.3 * other.energy.total_J());
+    }
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
