@@ -39,9 +39,9 @@ bool holds_no_plan(const std::string& directory) {
   std::ifstream file(directory + "/plan.json");
   const auto json = nlohmann::json::parse(file, nullptr, false);
   if (!json.is_object()) return false;
-  const std::string status = json.value("status", "");
-  return status == solve_status_name(SolveStatus::infeasible) ||
-         status == solve_status_name(SolveStatus::failed);
+  const auto status = json.find("status");
+  return status != json.end() && (*status == solve_status_name(SolveStatus::infeasible) ||
+                                  *status == solve_status_name(SolveStatus::failed));
 }
 
 class PlanCommand : public Command {

@@ -136,7 +136,8 @@ json compact_batch(const json& batch) {
 /// YYYY-MM-DD, universal time: today, or the day of SOURCE_DATE_EPOCH (reproducible-builds.org).
 std::string day() {
   const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
-  const std::time_t now = fixed ? static_cast<std::time_t>(std::atoll(fixed)) : std::time(nullptr);
+  const long long stated = fixed ? std::atoll(fixed) : 0;
+  const std::time_t now = stated > 0 ? static_cast<std::time_t>(stated) : std::time(nullptr);
   std::tm parts{};
   char text[16];
   return gmtime_r(&now, &parts) && std::strftime(text, sizeof text, "%Y-%m-%d", &parts) ? text : "";

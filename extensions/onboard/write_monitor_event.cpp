@@ -79,7 +79,7 @@ std::string line(const char* pattern, Values... values) {
 }
 
 std::string event_text(const MonitorStatus& s) {
-  std::string text = line("%8.1f s  leg %zu: ", s.time_s, s.leg);
+  std::string text = line("%8.1f s  leg %zu: ", s.time_s, s.leg + 1);
   text += s.measured ? line("%.0f J used, %.0f J planned to here", s.executed_J, s.planned_J)
                      : line("no power measured, %.0f J planned to here", s.planned_J);
   if (s.payload_kg)
@@ -107,7 +107,7 @@ std::string event_text(const NotPayload& c) {
 }
 
 std::string event_text(const LegExecuted& c) {
-  return line("%8.1f s  leg %zu %s: %.0f J used, %.0f J planned%s%s", c.time_s, c.leg,
+  return line("%8.1f s  leg %zu %s: %.0f J used, %.0f J planned%s%s", c.time_s, c.leg + 1,
               c.finished ? "finished" : "unfinished", c.executed_J, c.planned_J, c.finished ? "" : " to here",
               !c.deviates                  ? ""
               : c.executed_J > c.planned_J ? ": DEVIATES, more than planned"

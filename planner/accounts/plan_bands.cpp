@@ -1,6 +1,7 @@
 #include "planner/accounts/plan_bands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/battery_charge.hpp"
@@ -47,17 +48,17 @@ std::optional<PlanBand> band(std::vector<double> time_s, std::vector<double> val
 /// State of charge at each row: from the charge before a leg to that after its driving, by the energy. The
 /// charge that a charger adds during a dwell stands at the next leg's begin.
 std::vector<double> fractions(const Plan& plan, const Trajectory& rows) {
-  std::vector<double> list;
-  double before_J = 0;  // of the legs before
+  std::vector<double> list, before_J{0};  // of the legs before
+  for (const LegPlan& leg : plan.legs) before_J.push_back(before_J.back() + leg.energy.total_J());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const auto k = static_cast<std::size_t>(rows.leg[row]);
-    if (row > 0 && rows.leg[row] != rows.leg[row - 1]) before_J += plan.legs[k - 1].energy.total_J();
     const BatteryAccount& battery = *plan.battery;
     const double before = k == 0 ? battery.start_fraction : battery.fraction_after_leg[k - 1];
     const double after =
         plan.legs[k].charged_J > 0 ? battery.least_fraction_on_leg[k] : battery.fraction_after_leg[k];
-    const double share = (rows.energy_J[row] - before_J) / plan.legs[k].energy.total_J();
-    list.push_back(before + (after - before) * std::clamp(share, 0.0, 1.0));
+    const double leg_J = plan.legs[k].energy.total_J();
+    const double share = leg_J > 0 ? (rows.energy_J[row] - before_J[k]) / leg_J : 1.0;
+    list.push_back(before + (after - before) * share);
   }
   return list;
 }

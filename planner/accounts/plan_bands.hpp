@@ -26,7 +26,7 @@ struct PlanBands {
   std::optional<PlanBand> winding_C{};  ///< of the side that becomes hotter
 };
 
-/// At least at these times (s) of the plan; temperatures at at most as many of their own.
+/// At least at these times (s) of the plan; temperatures at about as many of their own.
 [[nodiscard]] PlanBands plan_bands(const Plan& plan, const Plant& plant, const std::vector<double>& times_s);
 
 }  // namespace joulepath

@@ -147,12 +147,17 @@ std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& pla
 WindingTrace winding_trace(const Plan& plan, const Plant& plant, Side side, std::size_t most_rows) {
   WindingTrace trace;
   const double step_s = plan.duration_s / static_cast<double>(std::max<std::size_t>(1, most_rows));
+  std::pair<double, double> last;  // time and temperature
+  const auto keep = [&] {
+    trace.time_s.push_back(last.first);
+    trace.temperature_C.push_back(last.second);
+  };
   Heating heating(plant, [&](double time_s, const std::array<Winding, 2>& windings) {
-    if (!trace.time_s.empty() && time_s < trace.time_s.back() + step_s) return;
-    trace.time_s.push_back(time_s);
-    trace.temperature_C.push_back(windings[side == Side::left ? 0 : 1].temperature_C());
+    last = {time_s, windings[side == Side::left ? 0 : 1].temperature_C()};
+    if (trace.time_s.empty() || time_s >= trace.time_s.back() + step_s) keep();
   });
   for (const LegPlan& leg : plan.legs) heating.add(leg);
+  if (last.first > trace.time_s.back()) keep();
   return trace;
 }
 

@@ -63,7 +63,7 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
         dense ? std::clamp(static_cast<std::size_t>(std::ceil(length_m / kNode_m)), kCoarse, kMostFine)
               : kFine;
   }
-  if (dense) fine.start.program.margin_m += kMarginStep_m;
+  if (dense) fine.start.program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
   fine.start.parameters = coarse.solution.parameters;
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
   fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);

@@ -16,10 +16,11 @@ namespace joulepath {
 /// above, the best kBeam labels of each layer are kept. Up to kAllOrders stops all orders may be planned,
 /// above only those that the table does not call worse in everything.
 ///
-/// Orders are planned in full, the cheapest estimate first, until no other can be cheaper than the best plan.
-/// Without windows each plan corrects the table for its legs, and legs that no plan had count as cheap as
-/// they can be. With windows the table's error of whole orders is allowed for, clearly late ones come last,
-/// and where none can be driven, the plan that is least late is the verdict.
+/// Orders are planned in full, the cheapest estimate first, until by the table no other can be cheaper than
+/// the best plan. Without windows each plan corrects the table for its legs, and legs that no plan had count
+/// as cheap, relative to their estimate, as any planned leg. With windows the table's error of whole orders
+/// is allowed for, clearly late ones come last, and where none can be driven, the plan that is least late is
+/// the verdict.
 [[nodiscard]] Plan plan_visits(const ChoiceContext& context, const PlanLegs& plan_legs);
 
 }  // namespace joulepath

@@ -56,7 +56,7 @@ class VisitSearch {
     return label.front.least_J() - table_.price_W() * label.front.cheapest_s();
   }
 
-  /// A lower bound on the energy of every order: the cheapest way into each stop, without payload.
+  /// The table's cheapest way into each stop, without payload, summed.
   [[nodiscard]] double lower_bound_J() const;
 
   /// The first stop that cannot be reached from the start, or nothing.

@@ -14,6 +14,7 @@ constexpr std::array<double, 6> kPrices_W{kNoLimit, 100, 30, 10, 3, 1};
 
 /// Seen are 0.5 to 0.95 between named headings, alike within a mission, and 0.85 to 1.05 else.
 constexpr double kLeastOfEstimate = 0.8;
+constexpr double kLeastLeg_J = 1e-6;
 
 double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes 0, 1/2, 1
   return at[0] * (1 - fraction) * (1 - 2 * fraction) + at[1] * 4 * fraction * (1 - fraction) +
@@ -107,7 +108,9 @@ TimeFront VisitTable::front(std::size_t from, std::size_t to, double payload_kg)
 }
 
 void VisitTable::learn(std::size_t from, std::size_t to, double payload_kg, double planned_J) {
-  const double factor = planned_J / estimate(from, to, payload_kg, 1).least_J();
+  const double estimate_J = estimate(from, to, payload_kg, 1).least_J();
+  if (!(estimate_J > kLeastLeg_J) || !(planned_J > kLeastLeg_J)) return;  // the robot is there already
+  const double factor = planned_J / estimate_J;
   table_[from * count_ + to].factor = factor;
   rest_ = std::min({rest_, kLeastOfEstimate, factor});
 }

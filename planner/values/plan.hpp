@@ -120,7 +120,7 @@ struct VisitOrder {
   int planned_orders{};                   ///< in full, this one included
   double energy_J{};                      ///< of the order, from the table of leg energies
   std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
-  double lower_bound_J{};  ///< no order takes less: the cheapest way into each stop, without payload
+  double lower_bound_J{};  ///< by the table: the cheapest way into each stop, without payload
   std::optional<Infeasibility> infeasibility{};
 };
 

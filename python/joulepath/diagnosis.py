@@ -101,7 +101,7 @@ class Diagnosis(Value):
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes the same files as ``joulepath diagnose``, byte for byte.
+        """Writes the same files as ``joulepath diagnose``, byte for byte on the same day.
 
         Files that exist are overwritten with ``force`` alone, else ConfigError. Returns the directory.
         """

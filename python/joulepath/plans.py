@@ -149,7 +149,7 @@ class Plan(Value):
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does.
+        """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does on the same day.
 
         Files that exist are overwritten with ``force`` alone, else ConfigError. Returns the directory.
         """

@@ -6,7 +6,7 @@ namespace {
 Schema at_time_schema() {
   return open(map({required("duration_s", number()), required("energy_J", number()),
                    required("optimum_J", number(), "least energy of the same path in the same time"),
-                   required("lost_J", number()), required("lost_percent", number())}));
+                   required("lost_J", number()), required("lost_percent", number(), "of energy_J")}));
 }
 
 Schema edge_schema() {

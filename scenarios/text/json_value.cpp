@@ -59,9 +59,8 @@ std::string flow_text(const Json& value) {
     return "{" + text + "}";
   }
   if (value.is_string()) return flow_word(value.get<std::string>());
-  if (value.is_number_float() &&
-      value.get<double>() == static_cast<double>(static_cast<long>(value.get<double>())) &&
-      std::abs(value.get<double>()) < 1e15)
+  if (value.is_number_float() && std::abs(value.get<double>()) < 1e15 &&
+      value.get<double>() == static_cast<double>(static_cast<long>(value.get<double>())))
     return std::to_string(static_cast<long>(value.get<double>()));
   return value.dump();
 }

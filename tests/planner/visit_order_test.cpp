@@ -332,6 +332,17 @@ TEST(VisitOrder, AWindowThatNoOrderMeetsIsNamedWithTheSecondsMissing) {
   EXPECT_FALSE(visit_plan(mission).infeasibility);
 }
 
+// A leg that does not drive says nothing about the table.
+TEST(VisitOrder, StopsWhereTheRobotIsAlreadyChangeNoOrder) {
+  const Plan plain = visit_plan(round_trip());
+  MissionRequest mission = round_trip();
+  mission.visit.insert(mission.visit.begin(), {.kind = VisitRequest::Kind::pass, .station = "dock"});
+  mission.visit.insert(mission.visit.begin() + 2, {.kind = VisitRequest::Kind::pass, .station = "near"});
+  const Plan plan = visit_plan(mission);
+  ASSERT_FALSE(plan.infeasibility) << plan.message;
+  EXPECT_LE(plan.energy.total_J(), 1.001 * plain.energy.total_J());
+}
+
 TEST(VisitOrder, AStopInAWallIsNamed) {
   MissionRequest mission = round_trip();
   mission.stations["far"].x_m = 23.95;

@@ -42,7 +42,8 @@ class MergeCommand : public Command {
                  .says = "join the shards of a batch or a sweep",
                  .examples =
                      "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
-                     "The results have the same bytes as those of one run. Shards of other inputs or of "
+                     "The results have the same bytes as those of one run on the same day. Shards of other "
+                     "inputs or of "
                      "another build of the\nprogram are rejected, and so are an incomplete set and results "
                      "that were changed after the run.\n"}) {}
 

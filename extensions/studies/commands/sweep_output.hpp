@@ -14,8 +14,8 @@ inline const std::vector<std::string> kSweepFiles{"sweep.csv", "sweep.json", "ti
 
 [[nodiscard]] std::string title_of(const Study& study);
 
-/// Writes the results of a whole sweep and prints its summary: a run and the merge of its shards give the
-/// same bytes.
+/// Writes the results of a whole sweep and prints its summary: a run and the merge of its shards on the
+/// same day give the same bytes.
 void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<std::string>& lines,
                   const std::vector<std::string>& optimized, const CommonOptions& common);
 

@@ -62,7 +62,6 @@ TEST(PlanFile, NoRobotHasAnIntervalThatItsFileDoesNotState) {
   EXPECT_GE(with_battery, 3);
 }
 
-/// The stated capacity is then the expected energy, which a bound exceeds.
 /// One threshold for readers and pages: far above the bound, with no corner that explains it.
 TEST(PlanFile, SaysWhichLegsLieFarAboveTheirBound) {
   using Part = PathBound::Part;

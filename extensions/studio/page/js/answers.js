@@ -182,7 +182,7 @@ on("edit", ({release}) => {
 async function sketch() {
   if (!has_legs() || ways_are_known()) return;
   const answer = await ask("draft", {samples: 300, paths: legs().map((leg, k) => (leg.to ? straight(place_after(k - 1), place_after(k)) : null))}, true);
-  if (store.answer || store.edits || !answer.motion) return;
+  if (store.answer || store.verdict || store.problem || store.edits || !answer.motion) return;
   Object.assign(store, {answer, verdict: answer.plan, state: "draft"});
   emit("answer");
 }
