@@ -18,9 +18,9 @@ namespace joulepath {
 ///
 /// Orders are planned in full, the cheapest estimate first, until by the table no other can be cheaper than
 /// the best plan. Without windows each plan corrects the table for its legs, and legs that no plan had count
-/// as cheap, relative to their estimate, as any planned leg. With windows the table's error of whole orders
-/// is allowed for, clearly late ones come last, and where none can be driven, the plan that is least late is
-/// the verdict.
+/// as a little cheaper, relative to their estimate, than any planned leg. With windows the table's error of
+/// whole orders is allowed for, clearly late ones come last, and where none can be driven, the plan that is
+/// least late is the verdict.
 [[nodiscard]] Plan plan_visits(const ChoiceContext& context, const PlanLegs& plan_legs);
 
 }  // namespace joulepath

@@ -12,8 +12,9 @@ namespace {
 /// Prices (W) above the mission's at which legs are measured if windows need faster drives.
 constexpr std::array<double, 6> kPrices_W{kNoLimit, 100, 30, 10, 3, 1};
 
-/// Seen are 0.5 to 0.95 between named headings, alike within a mission, and 0.85 to 1.05 else.
-constexpr double kLeastOfEstimate = 0.8;
+/// A leg that no plan had, relative to the least share of its estimate that a planned leg cost. Shares are
+/// 0.5 to 0.95 between named headings, most alike within a mission, and 0.85 to 1.05 else.
+constexpr double kBelowLeast = 0.9;
 constexpr double kLeastLeg_J = 1e-6;
 
 double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes 0, 1/2, 1
@@ -112,7 +113,7 @@ void VisitTable::learn(std::size_t from, std::size_t to, double payload_kg, doub
   if (!(estimate_J > kLeastLeg_J) || !(planned_J > kLeastLeg_J)) return;  // the robot is there already
   const double factor = planned_J / estimate_J;
   table_[from * count_ + to].factor = factor;
-  rest_ = std::min({rest_, kLeastOfEstimate, factor});
+  rest_ = std::min(rest_, kBelowLeast * factor);
 }
 
 }  // namespace joulepath

@@ -22,7 +22,7 @@ class VisitTable {
   /// The mission's price of a second, in addition to standby.
   [[nodiscard]] double price_W() const { return price_W_; }
   /// Corrects the cost of a leg, at any payload, by what a plan of it cost (J, time at its price included).
-  /// Legs without such a plan cost as small a share of their estimate as any had, kLeastOfEstimate at most.
+  /// Legs without such a plan count as a little cheaper, relative to their estimate, than any planned one.
   void learn(std::size_t from, std::size_t to, double payload_kg, double planned_J);
   /// Energy of the cheapest drive without payload.
   [[nodiscard]] double unloaded_J(std::size_t from, std::size_t to) const {
