@@ -48,8 +48,12 @@ std::optional<PlanBand> band(std::vector<double> time_s, std::vector<double> val
 /// State of charge at each row: from the charge before a leg to that after its driving, by the energy. The
 /// charge that a charger adds during a dwell stands at the next leg's begin.
 std::vector<double> fractions(const Plan& plan, const Trajectory& rows) {
-  std::vector<double> list, before_J{0};  // of the legs before
-  for (const LegPlan& leg : plan.legs) before_J.push_back(before_J.back() + leg.energy.total_J());
+  std::vector<double> list, before_J;
+  double legs_J = 0;
+  for (const LegPlan& leg : plan.legs) {
+    before_J.push_back(legs_J);
+    legs_J += leg.energy.total_J();
+  }
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const auto k = static_cast<std::size_t>(rows.leg[row]);
     const BatteryAccount& battery = *plan.battery;

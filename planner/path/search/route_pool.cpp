@@ -66,6 +66,8 @@ class Pool {
     }
   }
   std::vector<PooledRoute> routes() && {
+    for (PooledRoute& route : tight_)
+      if (same_class(route.polyline_m) == routes_.end()) routes_.push_back(std::move(route));
     for (PooledRoute& route : routes_) route.search_iterations = iterations_;
     return std::move(routes_);
   }
@@ -78,9 +80,21 @@ class Pool {
     const DiscLineCheck quick(floor_, start_, goal_, cells_),
         exact(floor_, start_, goal_, FreeSpace::Cells::free);
     const std::vector<Point2> line = pull_taut(found, quick, cost_);
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      if (!exact(line[i], line[i + 1])) return;
-    add(line, source);
+    const auto passes = [&line](const DiscLineCheck& free) {
+      for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        if (!free(line[i], line[i + 1])) return false;
+      return true;
+    };
+    if (passes(quick))
+      add(line, source);
+    else if (passes(exact))
+      tight_.push_back({.polyline_m = line, .cost = polyline_cost(line, cost_), .searched_by = source});
+  }
+
+  std::vector<PooledRoute>::iterator same_class(const std::vector<Point2>& line) {
+    return std::find_if(routes_.begin(), routes_.end(), [&](const PooledRoute& other) {
+      return same_homotopy_class(line, other.polyline_m, space_.islands_m());
+    });
   }
 
   void add(const std::vector<Point2>& line, const std::string& source) {
@@ -90,9 +104,7 @@ class Pool {
                       .cost = polyline_cost(line, cost_),
                       .searched_by = source};
     if (route.wide_m.size() == line.size()) route.wide_m.clear();
-    const auto same = std::find_if(routes_.begin(), routes_.end(), [&](const PooledRoute& other) {
-      return same_homotopy_class(line, other.polyline_m, space_.islands_m());
-    });
+    const auto same = same_class(line);
     if (same == routes_.end())
       routes_.push_back(std::move(route));
     else if (route.cost < same->cost)
@@ -108,6 +120,7 @@ class Pool {
   TravelCost cost_;
   Lattice lattice_;
   std::vector<PooledRoute> routes_{};
+  std::vector<PooledRoute> tight_{};  ///< that only the exact check allows: for classes without another route
   unsigned iterations_{};
 };
 
