@@ -80,9 +80,10 @@ class CompareCommand : public Command {
                 << "\n";
       return kInfeasibleOrFailed;
     }
+    const auto extras =
+        writes_analysis(options_) ? report::mission_extras(plan, mission, world) : report::MissionExtras{};
     for (const auto& comparison : comparisons_)
-      if (comparison->is_asked())
-        return comparison->run(plan, report::mission_extras(plan, mission, world), options_, out, kResult);
+      if (comparison->is_asked()) return comparison->run(plan, extras, options_, out, kResult);
     const std::vector<ComparedProfile> compared = compare_baselines(plan);
     nlohmann::json result = {
         {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
@@ -90,8 +91,7 @@ class CompareCommand : public Command {
     for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
     if (writes_analysis(options_))
       write_analysis(out, kResult, result,
-                     report::compare_report_html(result, motions(plan, compared),
-                                                 report::mission_extras(plan, mission, world)));
+                     report::compare_report_html(result, motions(plan, compared), extras));
     if (prints_analysis_table(options_, result)) {
       print_table(plan, compared);
       print_analysis_place(options_);

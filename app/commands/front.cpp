@@ -89,7 +89,9 @@ class FrontCommand : public Command {
     for (std::size_t k : chosen(front.points.size(), baseline_points_))
       beside.push_back({k, baselines_at(front.points[k], stretches, rest)});
     for (FrontPoint& point : front.points) point = sum_of(point, rest);
-    show(front, sure, beside, report::mission_extras(plan, mission, world), out);
+    const auto extras = writes_analysis(options_) ? report::mission_extras(plan, mission, world)
+                                                  : report::MissionExtras{.title = mission.name};
+    show(front, sure, beside, extras, out);
     return kDone;
   }
 

@@ -1,5 +1,7 @@
 #include "app/report/page_text.hpp"
 
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -85,6 +87,15 @@ std::string module_scripts(std::span<const Module> modules, const std::string& t
 }
 
 std::span<const Module> shared_modules() { return kPageModules; }
+std::string day() {
+  const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
+  const long long stated = fixed ? std::atoll(fixed) : 0;
+  const std::time_t now = stated > 0 ? static_cast<std::time_t>(stated) : std::time(nullptr);
+  std::tm parts{};
+  char text[16];
+  return gmtime_r(&now, &parts) && std::strftime(text, sizeof text, "%Y-%m-%d", &parts) ? text : "";
+}
+
 std::string shared_style() { return std::string(embedded::page_style); }
 std::string boot_script() { return std::string(embedded::page_boot); }
 

@@ -31,6 +31,10 @@ struct Module {
 /// them from; empty: as built in.
 [[nodiscard]] std::string module_scripts(std::span<const Module> modules, const std::string& tree = {});
 
+/// The day that pages name (YYYY-MM-DD, universal time): today, or that of SOURCE_DATE_EPOCH
+/// (reproducible-builds.org).
+[[nodiscard]] std::string day();
+
 /// Style and boot script that every page shares.
 [[nodiscard]] std::string shared_style();
 [[nodiscard]] std::string boot_script();

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -131,16 +129,6 @@ json compact_batch(const json& batch) {
   total["energy_Wh"] = number_at(total, "energy_J") / kJoulesPerWh;
   return {{"count", missions.size()}, {"status", status},     {"total", total},
           {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
-}
-
-/// YYYY-MM-DD, universal time: today, or the day of SOURCE_DATE_EPOCH (reproducible-builds.org).
-std::string day() {
-  const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
-  const long long stated = fixed ? std::atoll(fixed) : 0;
-  const std::time_t now = stated > 0 ? static_cast<std::time_t>(stated) : std::time(nullptr);
-  std::tm parts{};
-  char text[16];
-  return gmtime_r(&now, &parts) && std::strftime(text, sizeof text, "%Y-%m-%d", &parts) ? text : "";
 }
 
 json json_of(const MissionExtras& extras) {

@@ -16,15 +16,10 @@ constexpr double kRoughTime = 0.4;
 constexpr int kPlannedOrders = 24;  ///< at most: all orders of four stops
 constexpr int kChargedOrders = 6;   ///< the same where each order is planned with stops at chargers
 constexpr int kLateOrders = 3;      ///< at most, of those that the table calls clearly late
-constexpr double kTableError =
-    0.3;  ///< share of a cost by which a plan within windows may be below the table
+/// Share of a cost by which a plan within windows may be below the table.
+constexpr double kTableError = 0.3;
 
 bool is_late(const VisitLabel& label) { return label.late_share > kRoughTime; }
-
-bool has_windows(const MissionRequest& mission) {
-  return std::any_of(mission.visit.begin(), mission.visit.end(),
-                     [](const VisitRequest& visit) { return visit.window_s.has_value(); });
-}
 
 std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector<std::size_t>& order) {
   std::vector<LegRequest> legs;
@@ -135,18 +130,6 @@ class PlannedOrders {
   std::optional<Plan> best_{}, refused_{};
 };
 
-VisitOrder as_estimated(const VisitLabel& label, const MissionRequest& mission,
-                        const VisitSearch& estimates) {
-  std::vector<std::size_t> as_listed(label.order.size());
-  std::iota(as_listed.begin(), as_listed.end(), 0);
-  return {.order = label.order,
-          .legs = legs_of(mission, label.order),
-          .exact = mission.visit.size() <= kExactStops,
-          .energy_J = estimates.order_J(label.order).value_or(estimates.energy_J(label)),
-          .given_order_J = estimates.order_J(as_listed),
-          .lower_bound_J = estimates.lower_bound_J()};
-}
-
 }  // namespace
 
 Plan plan_visits(const ChoiceContext& context, const PlanLegs& plan_legs) {
@@ -154,24 +137,31 @@ Plan plan_visits(const ChoiceContext& context, const PlanLegs& plan_legs) {
   const VisitSearch estimates(context);
   VisitSearch search = estimates;
   std::vector<VisitLabel> orders = orders_to_plan(search);
+  VisitOrder visit{.exact = asked.visit.size() <= kExactStops};
   if (orders.empty()) {
+    visit.infeasibility = no_order(asked, context.world.robot, search);
     Plan none;
-    none.visit = VisitOrder{.exact = asked.visit.size() <= kExactStops,
-                            .infeasibility = no_order(asked, context.world.robot, search)};
+    none.visit = std::move(visit);
     return none;
   }
+  std::vector<std::size_t> as_listed(asked.visit.size());
+  std::iota(as_listed.begin(), as_listed.end(), 0);
+  visit.given_order_J = estimates.order_J(as_listed);
+  visit.lower_bound_J = estimates.lower_bound_J();
+  const bool learns = !has_windows(asked);
   PlannedOrders planned(asked, context.finite_price_W());
   MissionRequest mission = asked;
   while (const VisitLabel* next = planned.next(orders)) {
     const VisitLabel label = *next;
-    VisitOrder visit = as_estimated(label, asked, estimates);
-    mission.legs = visit.legs;
+    visit.order = label.order;
+    visit.legs = mission.legs = legs_of(asked, label.order);
+    visit.energy_J = estimates.order_J(label.order).value_or(estimates.energy_J(label));
     Plan plan = plan_legs(mission);
-    if (!has_windows(asked)) {
+    if (learns) {
       search.learn(label.order, plan);
       orders = orders_to_plan(search);
     }
-    plan.visit = std::move(visit);
+    plan.visit = visit;
     planned.take(std::move(plan), label);
   }
   return std::move(planned).answer();

@@ -9,6 +9,7 @@
 // Design: docs/decisions/0400-visits-and-charging.md
 // Method: [HeldKarp1962], [DesrochersSoumis1988]
 namespace joulepath {
+
 double payload_after_kg(const VisitRequest& visit, double payload_kg) {
   switch (visit.kind) {
     case VisitRequest::Kind::pick:

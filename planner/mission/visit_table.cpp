@@ -33,8 +33,7 @@ double heaviest_kg(const ChoiceContext& context) {
 /// Without windows the cheapest drive is enough.
 std::vector<double> prices_W(const ChoiceContext& context) {
   std::vector<double> prices_W;
-  if (std::any_of(context.mission.visit.begin(), context.mission.visit.end(),
-                  [](const VisitRequest& visit) { return visit.window_s.has_value(); }))
+  if (has_windows(context.mission))
     for (double price_W : kPrices_W)
       if (price_W > context.price_W) prices_W.push_back(price_W);
   prices_W.push_back(context.price_W);
@@ -58,6 +57,11 @@ RouteResult quick_route(const RouteSpace& space, const RouteRequest& request) {
 }
 
 }  // namespace
+
+bool has_windows(const MissionRequest& mission) {
+  return std::any_of(mission.visit.begin(), mission.visit.end(),
+                     [](const VisitRequest& visit) { return visit.window_s.has_value(); });
+}
 
 VisitTable::VisitTable(const ChoiceContext& context)
     : count_(context.mission.visit.size()),

@@ -9,6 +9,9 @@
 
 namespace joulepath {
 
+/// Whether a stop of `visit:` has a window.
+[[nodiscard]] bool has_windows(const MissionRequest& mission);
+
 /// Cost and time of the legs between every two stops, from inner profile solves at three payloads,
 /// interpolated between them. Index `visits` is the start. If stops have windows, a leg is measured at
 /// several prices of time.

@@ -93,6 +93,7 @@ void bind_fleet(nb::module_& module) {
           "map_picture", &picture_of_floor,
           "(width, height, resolution_m, (x_m, y_m, heading_rad) of the lower left corner, runs of cells "
           "from the bottom row on: free 0, unknown 1, occupied 2, keep-out 3).");
+  module.def("page_day", &report::day, "The day that a report names, YYYY-MM-DD.");
   module.def("page_style", &report::shared_style, "The style that every report shares.");
   module.def("load_fleet", &load_fleet, nb::arg("file"), nb::arg("cache"));
 }

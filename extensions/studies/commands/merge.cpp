@@ -43,9 +43,8 @@ class MergeCommand : public Command {
                  .examples =
                      "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
                      "The results have the same bytes as those of one run on the same day. Shards of other "
-                     "inputs or of "
-                     "another build of the\nprogram are rejected, and so are an incomplete set and results "
-                     "that were changed after the run.\n"}) {}
+                     "inputs or of\nanother build of the program are rejected, and so are an incomplete set "
+                     "and results that were changed\nafter the run.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directories_, "directories written with --shard").required().existing_path();

@@ -37,11 +37,10 @@ class FreeSpace {
   /// kNearEnds_m of the ends may always be used.
   [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
                                                Cells cells) const;
-  [[nodiscard]] bool clear(double x_m, double y_m) const { return rings(x_m, y_m) != 0; }
-  /// 0 where the cell is not clear, else one more than the rings of cells about it that are clear as well
-  /// (at most 254).
-  [[nodiscard]] int rings(double x_m, double y_m) const {
-    const auto cell = grid_.cell_of(x_m, y_m);
+  [[nodiscard]] bool clear(double x_m, double y_m) const { return rings(grid_.cell_of(x_m, y_m)) != 0; }
+  /// 0 where a cell is not clear, else one more than the rings of cells about it that are clear as well (at
+  /// most 254).
+  [[nodiscard]] int rings(OccupancyGrid::CellIndex cell) const {
     return grid_.contains(cell) ? rings_[index(cell)] : 0;
   }
   [[nodiscard]] bool free_cell(OccupancyGrid::CellIndex cell) const { return component_[index(cell)] >= 0; }

@@ -20,16 +20,17 @@ double plain_distance_m(const Point2& a, const Point2& b) {
 Point2 roomiest_about(const Point2& at, int reach, const FreeSpace& space) {
   const OccupancyGrid& grid = space.field().map();
   const auto center = grid.cell_of(at[0], at[1]);
+  if (space.rings(center) != 0) return at;
   Point2 best = at;
-  int most = space.rings(at[0], at[1]);
-  if (most != 0) return at;
+  int most = 0;
   double nearest_m = kNoLimit;
   for (int row = center.row - reach; row <= center.row + reach; ++row)
     for (int column = center.column - reach; column <= center.column + reach; ++column) {
+      const int rings = space.rings({column, row});
+      if (rings == 0 || rings < most) continue;
       const Point2 there = grid.center_of({column, row});
-      const int rings = space.rings(there[0], there[1]);
       const double off_m = plain_distance_m(at, there);
-      if (rings == 0 || rings < most || (rings == most && off_m >= nearest_m)) continue;
+      if (rings == most && off_m >= nearest_m) continue;
       best = there, most = rings, nearest_m = off_m;
     }
   return best;

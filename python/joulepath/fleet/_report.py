@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import html
 import json
-import os
-import time
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -19,8 +17,7 @@ HERE = FilePath(__file__).parent
 def report_html(source: Any, content: dict[str, Any]) -> str:
     """The page: verdict, playback, Gantt charts of robots and chargers, batteries, map, missions, executions."""
     title = html.escape(f"Fleet {content['fleet']}")
-    day = time.strftime("%Y-%m-%d", time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))))
-    about = f"{day} · joulepath {_core.version}"
+    about = f"{_core.page_day()} · joulepath {_core.version}"
     body = _charts(source, content) if "robots" in content else _helps(content)
     style = _core.page_style() + (HERE / "report.css").read_text(encoding="utf-8")
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
