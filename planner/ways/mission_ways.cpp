@@ -57,7 +57,8 @@ std::vector<PooledRoute> MissionWays::routes_of(std::size_t leg, const RouteRequ
   std::vector<PooledRoute> routes =
       request.cost.rate ? search()
                         : remembered(options_.answers, "routes", search, request.start.x_m, request.start.y_m,
-                                     request.goal_x_m, request.goal_y_m, request.cost.per_rad, request.seed);
+                                     request.goal_x_m, request.goal_y_m, end_headings(*space_, request),
+                                     request.cost.per_rad, request.seed);
   if (!world_.route_graph) return routes;
   const RouteResult on_graph = plan_graph_route(*space_, request, *world_.route_graph);
   if (on_graph.found())

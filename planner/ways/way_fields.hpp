@@ -28,8 +28,8 @@ void each_field(Archive& archive, LegPath& value) {
 
 template <class Archive>
 void each_field(Archive& archive, PooledRoute& value) {
-  auto& [polyline_m, wide_m, cost, searched_by, search_iterations] = value;
-  archive(polyline_m, wide_m, cost, searched_by, search_iterations);
+  auto& [polyline_m, wide_m, cost, searched_by, search_iterations, outline_fits] = value;
+  archive(polyline_m, wide_m, cost, searched_by, search_iterations, outline_fits);
 }
 
 template <class Archive>

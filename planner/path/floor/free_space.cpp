@@ -27,45 +27,62 @@ struct OpenCell {
   }
 };
 
-/// A* over the eight neighbors of usable cells: the cell before each cell on the shortest way from `start`.
+/// Costs in cells, and the cell before each one, of the shortest ways from a cell over the eight neighbors of
+/// usable cells: A* to a goal, or to all cells.
+struct CellWays {
+  std::vector<float> cost{};
+  std::vector<std::uint32_t> parent{};
+};
+
 template <class Usable>
-std::vector<std::uint32_t> shortest_parents(const OccupancyGrid& grid, Cell start, Cell goal,
-                                            const Usable& usable) {
+CellWays shortest_ways(const OccupancyGrid& grid, Cell start, const std::optional<Cell>& goal,
+                       const Usable& usable) {
   constexpr double kDiagonal = 1.4142135623730951;
   const auto heuristic = [&](Cell cell) {
-    const double dx = std::abs(cell.column - goal.column), dy = std::abs(cell.row - goal.row);
+    if (!goal) return 0.0;
+    const double dx = std::abs(cell.column - goal->column), dy = std::abs(cell.row - goal->row);
     return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
   };
-  std::vector<float> cost(grid.cell_count(), std::numeric_limits<float>::infinity());
-  std::vector<std::uint32_t> parent(grid.cell_count(), kNoParent);
+  CellWays ways{.cost = std::vector<float>(grid.cell_count(), std::numeric_limits<float>::infinity()),
+                .parent = std::vector<std::uint32_t>(grid.cell_count(), kNoParent)};
   std::priority_queue<OpenCell, std::vector<OpenCell>, std::greater<>> open;
-  cost[grid.index_of(start)] = 0;
+  ways.cost[grid.index_of(start)] = 0;
   open.push({heuristic(start), grid.index_of(start)});
   while (!open.empty()) {
     const OpenCell entry = open.top();
     open.pop();
-    if (entry.cell == grid.index_of(goal)) break;
+    if (goal && entry.cell == grid.index_of(*goal)) break;
     const Cell cell = grid.cell_at(entry.cell);
-    if (entry.estimate > cost[entry.cell] + heuristic(cell) + 1e-3) continue;  // outdated
+    const double here = ways.cost[entry.cell];
+    if (entry.estimate > here + heuristic(cell) + 1e-3) continue;  // outdated
     for (const Cell& step : kNeighbors) {
       const Cell next{cell.column + step.column, cell.row + step.row};
       if (!grid.contains(next) || !usable(next)) continue;
       const std::size_t at = grid.index_of(next);
-      const double next_cost = cost[entry.cell] + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
-      if (next_cost >= static_cast<double>(cost[at]) - 1e-4) continue;
-      cost[at] = static_cast<float>(next_cost);
-      parent[at] = static_cast<std::uint32_t>(entry.cell);
+      const double next_cost = here + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
+      if (next_cost >= static_cast<double>(ways.cost[at]) - 1e-4) continue;
+      ways.cost[at] = static_cast<float>(next_cost);
+      ways.parent[at] = static_cast<std::uint32_t>(entry.cell);
       open.push({next_cost + heuristic(next), at});
     }
   }
-  return parent;
+  return ways;
+}
+
+OccupancyGrid divided(const OccupancyGrid& map, double largest_cell_m) {
+  OccupancyGrid grid{map.width, map.height, map.resolution_m, map.origin, {}, map.file};
+  const double wanted = std::ceil(map.resolution_m / largest_cell_m - 1e-9),
+               most = std::sqrt(FreeSpace::kMostCells / static_cast<double>(map.cell_count()));
+  const int parts = std::max(1, static_cast<int>(std::min(wanted, most)));
+  grid.width *= parts, grid.height *= parts, grid.resolution_m /= parts;
+  return grid;
 }
 
 }  // namespace
 
-FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
+FreeSpace::FreeSpace(const ObstacleField& field, double radius_m, double largest_cell_m)
     : field_(&field),
-      grid_(field.map()),
+      grid_(divided(field.map(), largest_cell_m)),
       radius_m_(radius_m),
       cosine_(std::cos(grid_.origin.heading_rad)),
       sine_(std::sin(grid_.origin.heading_rad)) {
@@ -77,10 +94,9 @@ FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
   for (int row = 0; row < grid_.height; ++row)
     for (int column = 0; column < grid_.width; ++column) {
       const auto center = grid_.center_of({column, row});
-      const double lower_m = field.distance_bounds_m(center[0], center[1]).lower_m;
-      if (lower_m < radius_m) continue;
+      if (!field.disc_free(center[0], center[1], radius_m)) continue;
       component_[index({column, row})] = kUnlabelled;
-      rings_[index({column, row})] = lower_m >= clear_m ? 1 : 0;
+      rings_[index({column, row})] = field.disc_free(center[0], center[1], clear_m) ? 1 : 0;
     }
   count_rings();
   std::int32_t label = 0;
@@ -176,7 +192,7 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
       if (std::hypot(cell.column - end.column, cell.row - end.row) <= near_cells) return true;
     return false;
   };
-  const std::vector<std::uint32_t> parent = shortest_parents(grid_, *start, *goal, usable);
+  const std::vector<std::uint32_t> parent = shortest_ways(grid_, *start, goal, usable).parent;
   if (index(*goal) != index(*start) && parent[index(*goal)] == kNoParent) return {};
   std::vector<Point2> route{goal_m};
   for (std::size_t i = index(*goal); i != index(*start); i = parent[i])
@@ -186,11 +202,19 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
   return route;
 }
 
+std::vector<float> FreeSpace::lengths_to_m(const Point2& goal_m) const {
+  const auto goal = free_cell_near(goal_m);
+  if (!goal) return std::vector<float>(grid_.cell_count(), std::numeric_limits<float>::infinity());
+  std::vector<float> lengths =
+      shortest_ways(grid_, *goal, std::nullopt, [&](Cell cell) { return component_[index(cell)] >= 0; }).cost;
+  for (float& length : lengths) length *= static_cast<float>(grid_.resolution_m);
+  return lengths;
+}
+
 DiscLineCheck::DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m,
-                             FreeSpace::Cells cells)
+                             FreeSpace::Cells cells, double spare_m)
     : space_(&space), start_m_(start_m), goal_m_(goal_m), cells_(cells) {
   // The spare distance, but not more than the ends have.
-  double spare_m = FreeSpace::kSpare_m;
   for (const Point2& end : {start_m, goal_m})
     spare_m = std::min(spare_m, space.field().distance_m(end[0], end[1]) - space.radius_m());
   exact_radius_m_ = space.radius_m() + std::max(0.0, spare_m);

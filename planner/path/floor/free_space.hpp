@@ -14,14 +14,17 @@
 namespace joulepath {
 
 /// The floor for a disc of one radius, cell by cell: which cells are free, and which of them are connected
-/// (8-neighbors). It decides quickly whether a search can succeed, at the map's resolution, and checks lines
-/// by cell look-ups. Built once per map and radius.
+/// (8-neighbors). It decides quickly whether a search can succeed, and checks lines by cell look-ups. Built
+/// once per map and radius.
 class FreeSpace {
  public:
-  FreeSpace(const ObstacleField& field, double radius_m);
+  FreeSpace(const ObstacleField& field, double radius_m, double largest_cell_m = kLargestCell_m);
 
   const ObstacleField& field() const { return *field_; }
   double radius_m() const { return radius_m_; }
+  /// Geometry of the cells: the map's, divided where they are larger than that, as long as the floor has at
+  /// most kMostCells then.
+  const OccupancyGrid& grid() const { return grid_; }
   /// Component at a point: that of its cell, or of a free neighbor cell; absent if there is none.
   [[nodiscard]] std::optional<int> component(const Point2& point_m) const;
   [[nodiscard]] bool connected(const Point2& a_m, const Point2& b_m) const;
@@ -37,6 +40,9 @@ class FreeSpace {
   /// kNearEnds_m of the ends may always be used.
   [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
                                                Cells cells) const;
+  /// Octile length of the shortest way over free cells from each cell to a goal; infinite where there is
+  /// none.
+  [[nodiscard]] std::vector<float> lengths_to_m(const Point2& goal_m) const;
   [[nodiscard]] bool clear(double x_m, double y_m) const { return rings(grid_.cell_of(x_m, y_m)) != 0; }
   /// 0 where a cell is not clear, else one more than the rings of cells about it that are clear as well (at
   /// most 254).
@@ -49,7 +55,9 @@ class FreeSpace {
   bool for_unclear_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;
 
   static constexpr double kNearEnds_m = 0.8;
-  static constexpr double kSpare_m = 0.005;
+  static constexpr double kSpare_m = 0.005, kLeastSpare_m = 1e-4;
+  static constexpr double kLargestCell_m = 0.05, kSmallestCell_m = 0.0125;
+  static constexpr double kMostCells = 4e6;
 
  private:
   std::optional<OccupancyGrid::CellIndex> free_cell_near(const Point2& point_m) const;
@@ -69,7 +77,8 @@ class FreeSpace {
 /// outlive it.
 class DiscLineCheck {
  public:
-  DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m, FreeSpace::Cells cells);
+  DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m, FreeSpace::Cells cells,
+                double spare_m = FreeSpace::kSpare_m);
 
   [[nodiscard]] bool operator()(const Point2& a_m, const Point2& b_m) const;
   [[nodiscard]] bool point_free(const Point2& p_m) const;

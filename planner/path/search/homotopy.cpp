@@ -23,7 +23,7 @@ int signed_crossings(const std::vector<Point2>& line, const Point2& p) {
 }  // namespace
 
 std::vector<Point2> island_points(const FreeSpace& space) {
-  const OccupancyGrid& grid = space.field().map();
+  const OccupancyGrid& grid = space.grid();
   const auto at = [&](Cell cell) { return grid.index_of(cell); };
   std::vector<std::uint8_t> seen(grid.cell_count(), 0);
   std::vector<Point2> points;

@@ -18,7 +18,7 @@ double plain_distance_m(const Point2& a, const Point2& b) {
 
 /// A place itself where it is clear or nothing about it is, else the one with most room within `reach` cells.
 Point2 roomiest_about(const Point2& at, int reach, const FreeSpace& space) {
-  const OccupancyGrid& grid = space.field().map();
+  const OccupancyGrid& grid = space.grid();
   const auto center = grid.cell_of(at[0], at[1]);
   if (space.rings(center) != 0) return at;
   Point2 best = at;
@@ -44,7 +44,7 @@ Lattice::Lattice(const FreeSpace& space, double spacing_m)
   rows_ = static_cast<int>((extent_.y_max_m - extent_.y_min_m) / spacing_m) + 1;
   price_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1.0);
   places_.reserve(price_.size());
-  const int reach = static_cast<int>(std::lround(0.5 * spacing_m / space.field().map().resolution_m));
+  const int reach = static_cast<int>(std::lround(0.5 * spacing_m / space.grid().resolution_m));
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column)
       places_.push_back(roomiest_about(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 #include "planner/path/floor/path_conflict.hpp"
 #include "planner/path/search/homotopy.hpp"
@@ -115,8 +116,7 @@ std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteReq
 std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request) {
   if (auto verdict = blocked_ends(space, request)) return verdict;
   const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
-  if (is_there_already(request) || space.any_heading().connected(start, goal) ||
-      space.some_heading().connected(start, goal))
+  if (is_there_already(request) || space.floor_between(start, goal).connected(start, goal))
     return std::nullopt;
   return unconnected(space.any_heading(), start, goal);
 }
@@ -124,6 +124,12 @@ std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& 
 bool is_there_already(const RouteRequest& request) {
   return std::hypot(request.goal_x_m - request.start.x_m, request.goal_y_m - request.start.y_m) < kArrived_m;
 }
+
+/// Built where it is needed first.
+struct RouteSpace::Narrow {
+  std::mutex mutex{};
+  std::optional<FreeSpace> space{};
+};
 
 RouteSpace::~RouteSpace() = default;
 RouteSpace::RouteSpace(RouteSpace&&) noexcept = default;
@@ -136,7 +142,19 @@ RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, c
       any_heading_(*field_, checker_.circumscribed_radius_m() + clearance_m) {
   islands_m_ = island_points(any_heading_);
   routes_ = std::make_unique<RouteCache>();
+  narrow_ = std::make_unique<Narrow>();
   if (!checker_.is_disc()) some_heading_.emplace(*field_, checker_.inscribed_radius_m() + clearance_m);
+}
+
+const FreeSpace& RouteSpace::floor_between(const Point2& a_m, const Point2& b_m) const {
+  if (any_heading_.connected(a_m, b_m)) return any_heading_;
+  return some_heading().connected(a_m, b_m) ? some_heading() : narrow();
+}
+
+const FreeSpace& RouteSpace::narrow() const {
+  const std::lock_guard lock(narrow_->mutex);
+  if (!narrow_->space) narrow_->space.emplace(*field_, some_heading().radius_m(), FreeSpace::kSmallestCell_m);
+  return *narrow_->space;
 }
 
 RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
@@ -178,16 +196,20 @@ RouteResult plan_route(const RouteSpace& space, const RouteRequest& request) {
     return result;
   }
   if (is_there_already(request)) return shape_route(space, request, {});
-  const std::vector<PooledRoute> routes = pool_routes(space, request, {.classes = 1, .searches = 1});
+  const std::vector<PooledRoute> routes = pool_routes(space, request, {});
   if (routes.empty()) {
     result.verdict = unconnected(space.any_heading(), {request.start.x_m, request.start.y_m},
                                  {request.goal_x_m, request.goal_y_m});
     return result;
   }
-  RouteResult shaped = shape_route(space, request, routes.front().polyline_m);
-  shaped.search_iterations = routes.front().search_iterations;
-  shaped.searched_by = routes.front().searched_by;
-  return shaped;
+  for (const PooledRoute& route : routes) {
+    RouteResult shaped = shape_route(space, request, route.polyline_m);
+    shaped.search_iterations = route.search_iterations;
+    shaped.searched_by = route.searched_by;
+    if (shaped.found()) return shaped;
+    if (&route == &routes.front()) result = std::move(shaped);
+  }
+  return result;
 }
 
 }  // namespace joulepath

@@ -32,6 +32,10 @@ class RouteSpace {
   /// Free space of the largest disc inside the outline: where it is blocked, every heading is blocked. The
   /// same for round robots.
   const FreeSpace& some_heading() const { return some_heading_ ? *some_heading_ : any_heading_; }
+  /// The floor on which to search a way: the first that connects two places of any_heading(), some_heading(),
+  /// and the latter on much smaller cells, which miss no corridor that is a centimetre wider than the disc.
+  /// The last one where none does.
+  const FreeSpace& floor_between(const Point2& a_m, const Point2& b_m) const;
   /// A point inside of every island (homotopy.hpp) of any_heading().
   const std::vector<Point2>& islands_m() const { return islands_m_; }
   RouteCache& routes() const { return *routes_; }
@@ -41,6 +45,8 @@ class RouteSpace {
   FootprintChecker checker_;
   FreeSpace any_heading_;
   std::optional<FreeSpace> some_heading_{};
+  struct Narrow;
+  std::unique_ptr<Narrow> narrow_{};
   std::vector<Point2> islands_m_{};
   std::unique_ptr<RouteCache> routes_;
 };

@@ -16,11 +16,11 @@ class RouteCache {
  public:
   using Search = std::function<std::vector<PooledRoute>()>;
 
-  std::vector<PooledRoute> find_or_search(const RouteRequest& request, const PoolOptions& options,
-                                          const Search& search) {
+  std::vector<PooledRoute> find_or_search(const RouteRequest& request, const EndHeadings& headings,
+                                          const PoolOptions& options, const Search& search) {
     if (request.cost.rate) return search();
     const Key key{request.start.x_m, request.start.y_m, request.goal_x_m, request.goal_y_m,
-                  request.seed,      options.classes,   options.searches};
+                  request.seed,      headings,          options.classes,  options.searches};
     {
       const std::lock_guard lock(mutex_);
       const auto found = routes_.find(key);
@@ -32,7 +32,7 @@ class RouteCache {
   }
 
  private:
-  using Key = std::tuple<double, double, double, double, std::uint64_t, int, int>;
+  using Key = std::tuple<double, double, double, double, std::uint64_t, EndHeadings, int, int>;
   std::mutex mutex_{};
   std::map<Key, std::vector<PooledRoute>> routes_{};
 };

@@ -20,19 +20,23 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-/// Ends a search by counting iterations: at the budget, or when the best cost no longer improves.
+/// Ends a search by counting: at the budget of iterations, when the best cost no longer improves, or when
+/// many batches of samples found no way.
 class Budget {
  public:
   Budget(const SearchRequest& request, const ob::PlannerPtr& planner) : request_(request) {
     for (const auto& [name, value] : planner->getPlannerProgressProperties())
-      if (name.rfind("best cost", 0) == 0) best_cost_ = value;
+      if (name.rfind("best cost", 0) == 0)
+        best_cost_ = value;
+      else if (name.rfind("batches", 0) == 0)
+        batches_ = value;
   }
 
   bool spent() {
     if (++iterations_ >= request_.max_iterations) return true;
     if (iterations_ % kLookEvery != 0 || !best_cost_) return false;
     const double cost = std::strtod(best_cost_().c_str(), nullptr);
-    if (!std::isfinite(cost)) return false;
+    if (!std::isfinite(cost)) return batches_ && std::strtol(batches_().c_str(), nullptr, 10) > kMostBatches;
     if (cost < (1 - kSettled) * settled_cost_) settled_cost_ = cost, settled_at_ = iterations_;
     return iterations_ - settled_at_ > request_.patience;
   }
@@ -41,9 +45,10 @@ class Budget {
  private:
   static constexpr unsigned kLookEvery = 32;
   static constexpr double kSettled = 0.002;
+  static constexpr long kMostBatches = 30;  ///< of 200 samples
 
   const SearchRequest& request_;
-  std::function<std::string()> best_cost_{};
+  std::function<std::string()> best_cost_{}, batches_{};
   unsigned iterations_{};
   double settled_cost_{std::numeric_limits<double>::infinity()};
   unsigned settled_at_{};
