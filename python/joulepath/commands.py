@@ -163,7 +163,8 @@ def _told(words: list[str], folder: FilePath, progress: Progress) -> tuple[int, 
             except BaseException:
                 process.kill()
                 raise
-    return process.returncode, *(file.read_text(encoding="utf-8", errors="replace") for file in (printed, said))
+    texts = [file.read_text(encoding="utf-8", errors="replace") for file in (printed, said)]
+    return process.returncode, texts[0], texts[1]
 
 
 def _run(command: str, inputs: Mapping[str, Any], options: Mapping[str, Any], out: str = "", json_too: bool = True,

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import refused
-from ._inputs import number, numbers, whole
+from ._inputs import caps, number, numbers, whole
 from ._values import Value
 from .pieces import Drive, given_drive, on_board_kg
 
@@ -132,7 +132,8 @@ class Replanner:
         """
         return Replan(self._value.replan(
             number("s", s, least=0.0, most=self._drive.length), number("rate", rate, least=0.0),
-            on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s), caps("speed_caps", speed_caps),
+            on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s),
+            caps("speed_caps", speed_caps),
             math.inf if stop_at is None else number("stop_at", stop_at), whole("iterations", iterations, 1, 10000),
             math.inf if cpu_s is None else number("cpu_s", cpu_s, above=0.0)))
 

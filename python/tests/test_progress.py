@@ -88,7 +88,9 @@ def test_map_tells_jobs(robot):
 
 
 def test_the_answer_does_not_depend_on_progress(inside):
-    assert jp.diagnose(None, "dataset.yaml", progress=Told()).json == jp.diagnose(None, "dataset.yaml").json
+    found = jp.diagnose(None, "dataset.yaml", progress=Told())
+    assert found.json == jp.diagnose(None, "dataset.yaml").json
+    assert [bar.get_width() for bar in found.plot().patches] == [cell.energy_J for cell in found.where]
     plan = {"solver": "fast", "nodes": 40}
     assert jp.plan("mission.yaml", **plan, progress=Told()).json == jp.plan("mission.yaml", **plan).json
     assert jp.calibrate("dataset.yaml", progress=Told()).text == jp.calibrate("dataset.yaml").text
