@@ -57,7 +57,8 @@ class Energy(Value):
 
     def plot(self, axes: Any = None) -> Any:
         """Energy by cause; needs matplotlib. Returns the axes."""
-        return bars(axes, {cause: joules for cause, joules in self.causes_J.items() if joules}, "energy, J")
+        least_J = 1e-9 * abs(self.total_J)  # less is rounding
+        return bars(axes, {cause: joules for cause, joules in self.causes_J.items() if abs(joules) > least_J}, "energy, J")
 
     def __repr__(self) -> str:
         return f"Energy({self.total_J:.6g} J, {self.distance_m:.6g} m, {self.duration_s:.6g} s)"

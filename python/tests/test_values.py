@@ -103,7 +103,7 @@ def test_frames_plots_and_reports(curve):
     assert list(frame.columns) == list(curve.trajectory) and len(frame) == len(curve.t)
     assert len(curve.plot()) == 2
     energy = jp.energy(curve.robot, curve.t, curve.v, curve.w)
-    assert abs(sum(bar.get_width() for bar in energy.plot().patches) - energy.total_J) < 1e-9 * energy.total_J
+    assert abs(sum(bar.get_width() for bar in energy.plot().patches) - energy.total_J) < 1e-8 * energy.total_J
     assert curve._repr_html_().startswith("<iframe srcdoc=")
     assert "Profile(optimal" in repr(curve)
 
