@@ -154,11 +154,10 @@ std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, boo
   while (paths.size() < mission_.legs.size()) {
     const std::vector<Together> groups = groups_from(paths.size(), here);
     std::vector<std::vector<LegPath>> chosen(groups.size());
-    for_each_index(groups.size(), options_.threads,
-                   [&](std::size_t i) {
-                     chosen[i] = choose_together(groups[i], price_W, quick);
-                     finish_steps(chosen[i].size());
-                   });
+    for_each_index(groups.size(), options_.threads, [&](std::size_t i) {
+      chosen[i] = choose_together(groups[i], price_W, quick);
+      finish_steps(chosen[i].size());
+    });
     bool whole = !groups.empty();
     for (std::size_t i = 0; i < groups.size() && whole; ++i) {
       whole = chosen[i].size() == groups[i].count;

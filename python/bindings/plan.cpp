@@ -178,8 +178,7 @@ void bind_plan(nb::module_& module) {
             mission.speed_zones.push_back({0, speed_caps(i, 0), speed_caps(i, 1), speed_caps(i, 2)});
           return mission;
         };
-        auto plan = planned(along, &robot,
-                            plan_options(solver, nodes, 1, accuracy, false));
+        auto plan = planned(along, &robot, plan_options(solver, nodes, 1, accuracy, false));
         const bool driven = plan->results.valid;
         return std::pair(std::move(plan), driven);
       },

@@ -21,17 +21,16 @@ void bind_program(nb::module_& module) {
         words.push_back(nullptr);
         const nb::gil_scoped_release release;
         install_signal_handlers();
-        StepCount steps([=](std::size_t done, std::size_t total) {
-          dprintf(steps_file, "%zu %zu\n", done, total);
-        });
+        StepCount steps(
+            [=](std::size_t done, std::size_t total) { dprintf(steps_file, "%zu %zu\n", done, total); });
         const StepScope scope(steps_file >= 0 ? &steps : nullptr);
         const int code = program_main(static_cast<int>(arguments.size()), words.data());
         if (code == 0 && steps_file >= 0) steps.finish();
         return code;
       },
       nb::arg("arguments"), nb::arg("steps_file") = -1,
-      "The program `joulepath`; gives its exit code. For a process of its own: it takes Ctrl-C over. The file "
-      "descriptor `steps_file` gets a line `done total` for each step.");
+      "The program `joulepath`; gives its exit code. For a process of its own: it takes Ctrl-C over. "
+      "`steps_file`: descriptor of the file that gets a line `done total` for each step.");
 }
 
 }  // namespace joulepath::python
