@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <type_traits>
 
 #include "app/terminal.hpp"
@@ -77,6 +78,10 @@ std::string unknown_argument(const CLI::App& app) {
     if (const auto extension = absent_extension("option", command->get_name() + " " + argument);
         !extension.empty())
       return absent_text(argument, extension);
+  if (std::filesystem::exists(argument))
+    return "found " + argument +
+           ", one file too many, accepted: one (a dataset file lists several logs; `batch` plans "
+           "several missions)";
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 

@@ -17,6 +17,7 @@
 #include "diagnosis/next_run/next_run.hpp"
 #include "diagnosis/simulator/simulated_runs.hpp"
 #include "diagnosis/where/localize.hpp"
+#include "model/progress.hpp"
 
 namespace joulepath {
 namespace {
@@ -163,10 +164,14 @@ Examined examine(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& 
   examined.survey = survey_dataset(dataset, examined.runs.signals);
   std::set<std::string> without = examined.survey.invisible_effects;
   without.insert(options.without.begin(), options.without.end());
+  expect_steps(3);  // identify, choose, validate
   examined.id = identify(examined.runs.diagnosis, without);
+  finish_steps();
   const Examination x = examined.on(dataset, options);
   examined.names = choose_names(x);
+  finish_steps();
   examined.validation = validate(x, judge(x, examined.names));
+  finish_steps();
   return examined;
 }
 
@@ -207,18 +212,23 @@ std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const Diagnos
 }
 
 Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const DiagnoseOptions& options) {
+  expect_steps(4);  // runs apart, conclusion, next run, isolability
   Examined examined = examine(dataset, std::move(usable), options);
   std::vector<RunApart> apart = leave_out_runs_apart(dataset, options, examined);
+  finish_steps();
   const auto& [runs, survey, id, names, validation] = examined;
   const Examination x = examined.on(dataset, options);
   const Correction correction = correction_of(x, validation);
   Diagnosis d = conclusion(x, names, validation, options.bootstrap);
   d.runs_apart = std::move(apart);
+  finish_steps();
   d.where = localize_gap(runs.signals, x.nominal(), id.equations.noise, options.bootstrap);
   d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.verdict);
+  finish_steps();
   d.isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                               {id.equations.noise, id.equations.run_variance, id.dispersion},
                               survey.invisible_effects, options.without);
+  finish_steps();
   d.estimated_payload_kg = runs.diagnosis.estimated_payload_kg;
   d.missing_channels = survey.missing_channels;
   d.notes = joined({survey.notes,

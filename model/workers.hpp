@@ -7,17 +7,24 @@
 #include <thread>
 #include <vector>
 
+#include "model/progress.hpp"
+
 namespace joulepath {
 
-/// Threads that all run one function, joined at the end of the block. If the system gives fewer threads,
-/// fewer run; the caller runs the function too, so that the work is always done.
+/// Threads that all run one function and count its steps as the caller's, joined at the end of the block. If
+/// the system gives fewer threads, fewer run; the caller runs the function too, so that the work is always
+/// done.
 class Workers {
  public:
   template <class Function>
   Workers(std::size_t count, const Function& function) {
     threads_.reserve(count);
     try {
-      while (threads_.size() < count) threads_.emplace_back(function);
+      while (threads_.size() < count)
+        threads_.emplace_back([function, count = step_count] {
+          const StepScope steps(count);
+          function();
+        });
     } catch (const std::exception&) {  // no memory, or a limit on threads
     }
   }

@@ -16,6 +16,7 @@ MAP = "docs/README.md"
 DECISIONS = "docs/decisions/README.md"
 # Pages that the site alone has, by the group of the map that shows them.
 GENERATED = {"Start": ["docs/gallery.md"], "Use": ["docs/python_api.md", "docs/cpp_api.md"], "Trust": ["docs/leaderboard.md"]}
+NOTEBOOKS = "docs/notebooks"  # as pages, in the place of python/notebooks
 WITHOUT_GROUP = "---\norphan: true\n---\n\n"
 
 
@@ -39,7 +40,8 @@ class Stage:
         path = (self.source / page).parent / link.partition("#")[0]
         if path.is_dir():
             path /= "README.md"
-        return path.resolve().relative_to(self.source).as_posix()
+        target = path.resolve().relative_to(self.source)
+        return f"{NOTEBOOKS}/{target.stem}.md" if target.suffix == ".ipynb" else target.as_posix()
 
     def renamed(self, page, link):
         """A link of a page as it is on the site; files that are no pages are shown beside them."""
@@ -113,6 +115,7 @@ def main():
     source, out = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     write_decisions(source, out)
     stage = Stage(source, out)
+    GENERATED["Use"] += sorted(f"{NOTEBOOKS}/{page.name}" for page in (out / NOTEBOOKS).glob("*.md"))
     for page in (FRONT, MAP, *sum(GENERATED.values(), [])):
         stage.add(page)
     for decision in sorted((source / DECISIONS).parent.glob("*.md")):

@@ -9,6 +9,7 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "model/progress.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/values/verdict_text.hpp"
 #include "scenarios/any_file.hpp"
@@ -78,8 +79,10 @@ class Check : public Command {
   int run() override {
     int code = kDone;
     auto results = nlohmann::ordered_json::array();
+    expect_steps(files_.size());
     for (const auto& file : files_) {
       try {
+        const StepScope one_step(nullptr);
         FileSummary summary = read_any_file(file, kind_, {options_.untrusted}, brief_);
         if (summary.kind == "mission" && !brief_)
           if (std::string verdict = coarse_verdict(file, {options_.untrusted}); !verdict.empty())
@@ -94,6 +97,7 @@ class Check : public Command {
         if (!options_.json)
           std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
       }
+      finish_steps();
     }
     if (!options_.quiet && !options_.json) std::cout << printable_text(proposed());
     if (options_.json)

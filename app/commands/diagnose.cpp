@@ -81,8 +81,8 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
 /// What the causes are worth: in plans, against the most flexible model and against a wrong candidate.
 void print_worth(std::ostream& out, const Diagnosis& d) {
   if (d.decision_missions > 0)
-    out << "decisions: plans with the uncorrected model need " << figure(d.joules_lost_percent, 2)
-        << " % more energy on " << d.decision_missions << " standard missions\n";
+    out << "decisions: plans with the uncorrected model lose " << figure(d.joules_lost_percent, 2)
+        << " % of their energy on " << d.decision_missions << " standard missions\n";
   if (!d.causes.empty())
     out << "ceiling: the most flexible model shrinks the gap by " << percent(d.ceiling_shrink_fraction)
         << '\n';

@@ -11,6 +11,7 @@
 #include "app/plan/plan_summary.hpp"
 #include "app/report/plan_report.hpp"
 #include "app/terminal.hpp"
+#include "model/progress.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/mission/mission_time.hpp"
@@ -64,6 +65,7 @@ class FrontCommand : public Command {
     const MissionWorld world = read_told_world(mission, reading, options_.common.quiet);
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
+    expect_steps(points_ + std::min(points_, baseline_points_));
     const Plan plan = plan_mission(mission, world, options_.plan);
     if (plan.status > SolveStatus::feasible) {
       std::cerr << "no front: " << plan.message << "\n";
@@ -126,6 +128,7 @@ class FrontCommand : public Command {
     fastest.objective.confidence = confidence_;
     const Plan held = plan_mission(fastest, world, options_.plan);
     if (held.status > SolveStatus::feasible) return {.reason = held.message};
+    expect_steps(points_);
     SureFront sure{.limit_shares = held.confidence->limit_shares,
                    .reserve_margin = held.confidence->reserve_margin};
     MissionWorld careful = world;
@@ -159,7 +162,12 @@ class FrontCommand : public Command {
     for (std::size_t k = 0; k < stretches.size(); ++k)
       timed.push_back({&stretches[k].request, point.stretch_s[k]});
     std::vector<BaselineTotal> totals;
-    for (ComparedProfile& profile : compare_baselines(timed)) {
+    std::vector<ComparedProfile> compared = [&] {
+      const StepScope one_step(nullptr);
+      return compare_baselines(timed);
+    }();
+    finish_steps();
+    for (ComparedProfile& profile : compared) {
       totals.push_back(std::move(profile.total));
       add_rest(totals.back(), rest.duration_s, rest.energy_J, rest.motion_energy_J);
     }

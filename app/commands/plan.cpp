@@ -83,6 +83,8 @@ class PlanCommand : public Command {
 
   int run() override {
     const Clock::time_point start = Clock::now();
+    if (operation_.price_per_kWh && !operation_.missions_per_day)
+      throw UsageError("--price-per-kWh needs --missions-per-day: the price is that of a year's energy");
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "profile.csv", "timing.json", "report.html"},
                         common_.force || holds_no_plan(out_));
     const ReadOptions reading{.untrusted = common_.untrusted};

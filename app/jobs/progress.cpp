@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "model/progress.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -32,8 +34,11 @@ Progress::Progress(std::string what, std::size_t total, bool quiet, std::size_t 
       total_(total),
       done_(done),
       earlier_(done),
-      quiet_(quiet),
-      on_terminal_(isatty(STDERR_FILENO) == 1) {}
+      quiet_(quiet || step_count != nullptr),
+      on_terminal_(isatty(STDERR_FILENO) == 1) {
+  expect_steps(total);
+  finish_steps(done);
+}
 
 Progress::~Progress() {
   if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
@@ -41,6 +46,7 @@ Progress::~Progress() {
 
 void Progress::advance(std::size_t steps) {
   done_ += steps;
+  finish_steps(steps);
   if (quiet_) return;
   const auto now = Clock::now();
   if (seconds_between(start_, now) < kSilent_s || seconds_between(last_, now) < (on_terminal_ ? 0.2 : 10.0))

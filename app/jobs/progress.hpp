@@ -13,7 +13,8 @@ namespace joulepath {
                                         std::size_t earlier, double elapsed_s);
 
 /// Progress on stderr, silent for the first second: a line with rate and remaining time that is updated on a
-/// terminal, a plain line every ten seconds elsewhere. It is never part of a result.
+/// terminal, a plain line every ten seconds elsewhere. A count of steps takes its place. It is never part of
+/// a result.
 class Progress {
  public:
   /// `done`: steps that an earlier run has done; the rate is that of this run.

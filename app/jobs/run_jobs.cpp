@@ -12,6 +12,7 @@
 #include "app/jobs/progress.hpp"
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
+#include "model/progress.hpp"
 #include "model/workers.hpp"
 #include "scenarios/text/counted.hpp"
 #include "scenarios/text/document.hpp"
@@ -134,7 +135,10 @@ void run_jobs(const std::vector<std::size_t>& indices, unsigned threads,
   std::mutex mutex;
   for_each_index(indices.size(), threads, [&](std::size_t k) {
     if (stop()) return;
-    const JobResult result = work(indices[k]);
+    const JobResult result = [&] {
+      const StepScope uncounted(nullptr);
+      return work(indices[k]);
+    }();
     const std::lock_guard lock(mutex);
     done(result);
   });

@@ -2,14 +2,18 @@
 
 #include <cmath>
 
+#include "model/progress.hpp"
+
 // Method: [EfronStein1981]
 namespace joulepath::calibration {
 
 Resampled jackknife(std::size_t units, const std::function<std::vector<double>(std::size_t)>& estimate) {
+  expect_steps(units);
   std::vector<Eigen::VectorXd> all;
   for (std::size_t i = 0; i < units; ++i) {
     const std::vector<double> one = estimate(i);
     all.push_back(Eigen::VectorXd::Map(one.data(), std::ssize(one)));
+    finish_steps();
   }
   const auto n = static_cast<double>(units);
   const Eigen::Index size = all.front().size();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "model/progress.hpp"
 #include "model/workers.hpp"
 #include "planner/accounts/stretch_account.hpp"
 #include "planner/baselines/baseline.hpp"
@@ -118,7 +119,10 @@ void add_to_leg(LegPlan& leg, double standby_W) {
 }  // namespace
 
 void add_baselines(Plan& plan, double standby_W, unsigned threads) {
-  for_each_index(plan.legs.size(), threads, [&](std::size_t k) { add_to_leg(plan.legs[k], standby_W); });
+  for_each_index(plan.legs.size(), threads, [&](std::size_t k) {
+    add_to_leg(plan.legs[k], standby_W);
+    finish_steps();
+  });
   for (const LegPlan& leg : plan.legs) {
     plan.baselines.resize(leg.baselines.size());
     for (std::size_t b = 0; b < leg.baselines.size(); ++b) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/progress.hpp"
 #include "planner/baselines/baseline.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
@@ -60,8 +61,10 @@ void add_rest(BaselineTotal& total, double duration_s, double energy_J, double m
 std::vector<ComparedProfile> compare_baselines(const std::vector<TimedStretch>& stretches) {
   std::vector<ComparedProfile> compared(stretches.empty() ? 0 : baselines().size());
   for (const TimedStretch& stretch : stretches)
-    for (std::size_t i = 0; i < compared.size(); ++i)
+    for (std::size_t i = 0; i < compared.size(); ++i) {
       add(compared[i], soonest(baselines()[i], *stretch.request, stretch.duration_s), stretch);
+      finish_steps();
+    }
   return compared;
 }
 
@@ -75,6 +78,7 @@ std::vector<ComparedProfile> compare_baselines(const Plan& plan) {
       driven += stretch.energy;
       driving_s += stretch.profile.duration_s();
     }
+  expect_steps(stretches.size() * baselines().size());
   std::vector<ComparedProfile> compared = compare_baselines(stretches);
   for (ComparedProfile& profile : compared)
     add_rest(profile.total, plan.duration_s - driving_s, plan.energy.total_J() - driven.total_J(),

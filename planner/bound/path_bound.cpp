@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/progress.hpp"
 #include "planner/bound/geodesic.hpp"
 #include "planner/bound/line_price.hpp"
 #include "planner/legs/stretch.hpp"
@@ -172,6 +173,7 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
     LegPlan& leg = plan.legs[k];
     const double price_W = std::max(0.0, leg.price_of_time_W);
     leg.path_bound = path_bound(bounds.find(k, price_W), price_W, leg.duration_s, standby_W * leg.dwell_s);
+    finish_steps();
     driving_s += leg.duration_s, spent_J += price_W * leg.duration_s;
     lowest_W = std::min(lowest_W, price_W), highest_W = std::max(highest_W, price_W);
   }

@@ -6,6 +6,7 @@
 
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
+#include "model/progress.hpp"
 #include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
@@ -129,7 +130,9 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
     timed.split = share_time(timed.prepared, mission, plant, SolverChoice::fast);
     return true;
   };
+  expect_steps(mission.legs.size());
   for (int round = 0; space && !way_price_W && round < kRounds; ++round) {
+    expect_steps(mission.legs.size());
     if (!choose(true) || !share(true)) return timed;
     const bool converged = !moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
@@ -199,6 +202,7 @@ void mark_as_draft(Plan& plan) {
 Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                     const RouteSpace* space, const Plant& plant, const std::vector<LegState>& states,
                     Plan plan, std::optional<double> way_price_W) {
+  expect_steps(mission.legs.size());
   TimedLegs timed = time_legs(mission, world, space, plant, options, states, way_price_W, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   if (auto verdict = too_late(timed, mission))
@@ -210,6 +214,7 @@ Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, co
   std::vector<std::vector<ProfileResult>> results(legs.size());
   for_each_index(legs.size(), options.threads, [&](std::size_t k) {
     results[k] = final_results(timing[k], split.price_W[k], split.duration_s[k], options);
+    finish_steps();
   });
   for (std::size_t k = 0; k < legs.size(); ++k)
     if (!all_driven(k, timed.prepared, results[k], plan)) return plan;
@@ -411,6 +416,8 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   };
   PlanOptions alone = options;
   alone.baselines = alone.path_bound = false;
+  expect_steps((std::size_t{options.baselines} + std::size_t{options.path_bound}) *
+               std::max(asked.legs.size(), asked.visit.size()));
   Plan answer = asked.objective.confidence && !options.draft ? confident_plan(asked, world, alone, once)
                                                              : once(asked, world, alone);
   const Plant plant = make_plant(world.robot);

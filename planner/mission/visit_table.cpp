@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/limit_table.hpp"
+#include "model/progress.hpp"
 
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
@@ -68,9 +69,13 @@ VisitTable::VisitTable(const ChoiceContext& context)
       price_W_(context.finite_price_W()),
       heaviest_kg_(heaviest_kg(context)),
       table_((count_ + 1) * count_) {
+  expect_steps(count_ * count_);
   for (std::size_t from = 0; from <= count_; ++from)
-    for (std::size_t to = 0; to < count_; ++to)
-      if (from != to) table_[from * count_ + to] = measure(context, from, to);
+    for (std::size_t to = 0; to < count_; ++to) {
+      if (from == to) continue;
+      table_[from * count_ + to] = measure(context, from, to);
+      finish_steps();
+    }
 }
 
 VisitTable::LegCost VisitTable::measure(const ChoiceContext& context, std::size_t from,

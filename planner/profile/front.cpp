@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "model/progress.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
@@ -181,6 +182,7 @@ Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t 
     return front;
   }
   front.points = {*fastest, *cheapest};
+  finish_steps(front.points.size());
   const double typical_W = std::max(0.1, cheapest->energy_J / std::max(1e-9, cheapest->duration_s));
   while (front.points.size() < points) {
     const std::size_t k = widest_gap(front.points);
@@ -189,6 +191,7 @@ Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t 
     const auto point = point_at(parts, price_W, standby_W);
     if (!point) break;
     front.points.insert(front.points.begin() + static_cast<std::ptrdiff_t>(k) + 1, *point);
+    finish_steps();
   }
   front.summary.status = SolveStatus::optimal;
   front.summary.solver = "fast";

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/progress.hpp"
 #include "model/workers.hpp"
 #include "planner/legs/floor_check.hpp"
 #include "planner/legs/prescribed_leg.hpp"
@@ -154,8 +155,10 @@ std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, boo
   while (paths.size() < mission_.legs.size()) {
     const std::vector<Together> groups = groups_from(paths.size(), here);
     std::vector<std::vector<LegPath>> chosen(groups.size());
-    for_each_index(groups.size(), options_.threads,
-                   [&](std::size_t i) { chosen[i] = choose_together(groups[i], price_W, quick); });
+    for_each_index(groups.size(), options_.threads, [&](std::size_t i) {
+      chosen[i] = choose_together(groups[i], price_W, quick);
+      finish_steps(chosen[i].size());
+    });
     bool whole = !groups.empty();
     for (std::size_t i = 0; i < groups.size() && whole; ++i) {
       whole = chosen[i].size() == groups[i].count;
@@ -170,6 +173,7 @@ std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, boo
       if (path.infeasibility) tell_of_reverse(paths.size(), here, *path.infeasibility);
       here = after(paths.size(), path, here);
       paths.push_back(std::move(path));
+      finish_steps();
       if (paths.back().infeasibility) return paths;
     }
   }

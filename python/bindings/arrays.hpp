@@ -15,6 +15,7 @@ namespace nb = nanobind;
 /// Numbers from Python; the package converts them to contiguous, finite float64.
 using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Points = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using Caps = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;  ///< from, to, speed
 
 [[nodiscard]] std::vector<double> vector_of(const Numbers& numbers);
 

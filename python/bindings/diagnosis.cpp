@@ -34,26 +34,30 @@ constexpr ReadOptions kReading{.cut_long_logs = true, .accept_implausible = true
 
 DiagnosisResults diagnose_text(const std::string& text, const std::string& name, const RobotValue& robot,
                                const std::map<std::string, std::map<std::string, Numbers>>& frames,
-                               const std::vector<std::string>& without) {
+                               const std::vector<std::string>& without, nb::handle progress) {
   const DiagnoseOptions options{.without = left_out_effects(without)};
   Tables logs;
   for (const auto& [log, columns] : frames) logs[log] = table_of(log, columns);
-  const LongCall call;
+  LongCall call(progress);
   const Document document = from_object(name, [&] { return Document::parse(text, name); });
   Dataset dataset = from_objects(
       [&](const std::string& file) { return file == name || logs.contains(file); },
       [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
   dataset.file.clear();  // without a file, no corrected dataset can be written
-  return diagnosis_results(std::move(dataset), options, &document);
+  DiagnosisResults results = diagnosis_results(std::move(dataset), options, &document);
+  call.finish();
+  return results;
 }
 
 DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
-                               const std::vector<std::string>& without) {
+                               const std::vector<std::string>& without, nb::handle progress) {
   const DiagnoseOptions options{.without = left_out_effects(without)};
-  const LongCall call;
+  LongCall call(progress);
   const Document document = Document::load(file);
-  return diagnosis_results(dataset_from(document, kReading, {}, {.robot = robot ? &robot->robot : nullptr}),
-                           options, &document);
+  DiagnosisResults results = diagnosis_results(
+      dataset_from(document, kReading, {}, {.robot = robot ? &robot->robot : nullptr}), options, &document);
+  call.finish();
+  return results;
 }
 
 std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const std::string& directory) {
@@ -76,8 +80,9 @@ void bind_diagnosis(nb::module_& module) {
            })
       .def("corrected_dataset", &corrected_dataset, nb::arg("directory"));
   module.def("diagnose_text", &diagnose_text, nb::arg("text"), nb::arg("name"), nb::arg("robot"),
-             nb::arg("frames"), nb::arg("without"));
-  module.def("diagnose_file", &diagnose_file, nb::arg("file"), nb::arg("robot").none(), nb::arg("without"));
+             nb::arg("frames"), nb::arg("without"), nb::arg("progress").none());
+  module.def("diagnose_file", &diagnose_file, nb::arg("file"), nb::arg("robot").none(), nb::arg("without"),
+             nb::arg("progress").none());
 }
 
 }  // namespace joulepath::python

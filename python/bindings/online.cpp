@@ -41,8 +41,6 @@ std::unique_ptr<ReplanValue> replanned(Replanner& replanner, const Situation& si
   return value;
 }
 
-using Caps = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-
 std::vector<SpeedCap> caps_of(const Caps& rows) {
   std::vector<SpeedCap> caps;
   for (std::size_t i = 0; i < rows.shape(0); ++i) caps.push_back({rows(i, 0), rows(i, 1), rows(i, 2)});

@@ -97,9 +97,9 @@ double thread_cpu_s() {
 /// Plans a mission without the GIL.
 template <class MakeMission>
 std::unique_ptr<PlanValue> planned(const MakeMission& make_mission, const RobotValue* robot,
-                                   const PlanOptions& options) {
+                                   const PlanOptions& options, nb::handle progress = {}) {
   auto value = std::make_unique<PlanValue>();
-  const LongCall call;
+  LongCall call(progress);
   const double start_s = thread_cpu_s();
   {
     MissionRequest mission = make_mission();
@@ -107,6 +107,7 @@ std::unique_ptr<PlanValue> planned(const MakeMission& make_mission, const RobotV
     Plan plan = plan_mission(mission, world, options);
     value->results = plan_results(std::move(mission), std::move(world), std::move(plan));
   }
+  call.finish();
   value->cpu_s = thread_cpu_s() - start_s;
   return value;
 }
@@ -168,21 +169,28 @@ void bind_plan(nb::module_& module) {
   module.def(
       "profile",
       [](const RobotValue& robot, const PathValue& path, double payload_kg, std::optional<double> time_s,
-         const std::string& solver, std::size_t nodes, double accuracy) {
+         const Caps& speed_caps, const std::string& solver, std::size_t nodes, double accuracy) {
         const MissionSource source{
             .file = "path", .robot_at_hand = true, .payload_kg = payload_kg, .duration_s = time_s};
-        auto plan = planned([&] { return mission_along(source, path.path); }, &robot,
-                            plan_options(solver, nodes, 1, accuracy, false));
+        const auto along = [&] {
+          MissionRequest mission = mission_along(source, path.path);
+          for (std::size_t i = 0; i < speed_caps.shape(0); ++i)
+            mission.speed_zones.push_back({0, speed_caps(i, 0), speed_caps(i, 1), speed_caps(i, 2)});
+          return mission;
+        };
+        auto plan = planned(along, &robot, plan_options(solver, nodes, 1, accuracy, false));
         const bool driven = plan->results.valid;
         return std::pair(std::move(plan), driven);
       },
-      nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(), nb::arg("solver"),
-      nb::arg("nodes"), nb::arg("accuracy"), "The plan, and whether it can be driven.");
+      nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(),
+      nb::arg("speed_caps"), nb::arg("solver"), nb::arg("nodes"), nb::arg("accuracy"),
+      "The plan, and whether it can be driven.");
   module.def(
       "plan_file",
       [](const std::string& file, const std::string& robot_file, const RobotValue* robot,
          const std::string& map_file, std::optional<double> payload_kg, std::optional<double> time_s,
-         const std::string& solver, std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
+         const std::string& solver, std::size_t nodes, unsigned seed, double accuracy, bool baselines,
+         nb::handle progress) {
         const MissionSource source{.file = file,
                                    .robot_file = robot_file,
                                    .map_file = map_file,
@@ -191,24 +199,24 @@ void bind_plan(nb::module_& module) {
                                    .duration_s = time_s};
         std::vector<std::string> notes;
         auto plan = planned([&] { return read_mission_source(source, {}, &notes); }, robot,
-                            plan_options(solver, nodes, seed, accuracy, baselines));
+                            plan_options(solver, nodes, seed, accuracy, baselines), progress);
         warn(notes);
         return plan;
       },
       nb::arg("file"), nb::arg("robot_file"), nb::arg("robot").none(), nb::arg("map_file"),
       nb::arg("payload_kg").none(), nb::arg("time_s").none(), nb::arg("solver"), nb::arg("nodes"),
-      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"));
+      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"), nb::arg("progress").none());
   module.def(
       "plan_text",
       [](const std::string& text, const std::string& name, const RobotValue* robot, const std::string& solver,
-         std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
+         std::size_t nodes, unsigned seed, double accuracy, bool baselines, nb::handle progress) {
         return from_object(name, [&] {
           return planned([&] { return mission_from(Document::parse(text, name)); }, robot,
-                         plan_options(solver, nodes, seed, accuracy, baselines));
+                         plan_options(solver, nodes, seed, accuracy, baselines), progress);
         });
       },
       nb::arg("text"), nb::arg("name"), nb::arg("robot").none(), nb::arg("solver"), nb::arg("nodes"),
-      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"));
+      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"), nb::arg("progress").none());
 }
 
 }  // namespace joulepath::python

@@ -1,6 +1,7 @@
 #include "python/bindings/stop.hpp"
 
 #include <chrono>
+#include <thread>
 
 #include "python/bindings/bindings.hpp"
 
@@ -23,15 +24,27 @@ void raise_pending_signal() {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
+StepCount::Report report_to(nb::handle progress) {
+  return [progress, caller = std::this_thread::get_id()](std::size_t done, std::size_t total) {
+    if (std::this_thread::get_id() != caller) return;
+    const nb::gil_scoped_acquire acquire;
+    progress(done, total);
+  };
+}
+
+bool is_given(nb::handle object) { return object.is_valid() && !object.is_none(); }
+
 }  // namespace
 
-LongCall::LongCall()
+LongCall::LongCall(nb::handle progress)
     : stop_([last = Clock::now()]() mutable {
         if (token != nullptr && token->set) raise_interrupt();
         if (Clock::now() - last < kBetweenChecks) return;
         raise_pending_signal();
         last = Clock::now();
-      }) {}
+      }),
+      steps_(report_to(progress)),
+      scope_(is_given(progress) ? &steps_ : nullptr) {}
 
 void bind_stop(nb::module_& module) {
   nb::class_<StopToken>(module, "StopToken", "Ends the computations of the threads that use it.")

@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "model/progress.hpp"
 #include "model/stop.hpp"
 
 namespace joulepath::python {
@@ -13,15 +14,20 @@ struct StopToken {
   std::atomic<bool> set{false};
 };
 
-/// Calls a long computation without the GIL. A signal handler that raises (Ctrl-C: KeyboardInterrupt), or the
-/// thread's StopToken, ends it at its next step.
+/// Calls a long computation without the GIL. A signal handler that raises (Ctrl-C: KeyboardInterrupt), the
+/// thread's StopToken or `progress` ends it at its next step. `progress(done, total)` is called on the
+/// caller's thread alone; it must outlive the call.
 class LongCall {
  public:
-  LongCall();
+  explicit LongCall(nanobind::handle progress = {});
+  /// The computation is done.
+  void finish() { steps_.finish(); }
 
  private:
   nanobind::gil_scoped_release release_{};
   StopScope stop_;
+  StepCount steps_;
+  StepScope scope_;
 };
 
 }  // namespace joulepath::python

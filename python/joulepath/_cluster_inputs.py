@@ -12,7 +12,7 @@ from typing import Any, cast
 
 from . import _core
 from ._errors import ConfigError, refused
-from ._inputs import encodable, file_name, whole
+from ._inputs import called, encodable, file_name, whole
 
 MOST_SHARDS = 1_000_000  #: of the program
 
@@ -22,8 +22,7 @@ def check_flags(resume: Any, progress: Any, memory_MiB: Any) -> None:
     whole("memory_MiB", memory_MiB, 0, sys.maxsize >> 20)
     if not isinstance(resume, bool):
         raise refused("resume", repr(resume), "True or False")
-    if progress is not None and not callable(progress):
-        raise refused("progress", repr(progress), "a function of two numbers, or None")
+    called(progress)
 
 
 def target_of(out: Any) -> Path:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 import math
 import os
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import ConfigError, refused
+
+#: Called with the numbers of finished and of expected steps.
+Progress = Optional[Callable[[int, int], Any]]
 
 
 def numbers(name: str, value: ArrayLike, ndim: int = 1, least: float = -math.inf, most: float = math.inf) -> NDArray[np.float64]:
@@ -95,6 +98,23 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
         raise refused(name, repr(value), f"a whole number from {least} to {most}")
     return int(value)
+
+
+def called(progress: Any) -> Progress:
+    """A function for progress, or None."""
+    if progress is not None and not callable(progress):
+        raise refused("progress", repr(progress), "a function of two numbers, or None")
+    return progress  # type: ignore[no-any-return]
+
+
+def caps(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Speed limits along a path, shape (N, 3): from (m), to (m), speed (m/s)."""
+    rows = np.empty((0, 3)) if np.size(value) == 0 else numbers(name, value, 2)
+    if rows.shape[1] != 3:
+        raise refused(name, f"shape {rows.shape}", "shape (N, 3): from (m), to (m), speed (m/s)")
+    if (rows[:, 2] <= 0).any() or (rows[:, 1] < rows[:, 0]).any():
+        raise refused(name, "a row with from > to, or with a speed <= 0", "from <= to, and a speed > 0")
+    return rows
 
 
 def one_of(name: str, value: Any, words: tuple[str, ...]) -> str:

@@ -20,12 +20,15 @@ from numpy.typing import NDArray
 from ._errors import ConfigError, PlanningError, refused
 from ._files import save
 from ._frames import columns_of, is_frame
-from ._inputs import encodable, file_name, text_of
+from ._inputs import Progress, called, encodable, file_name, text_of
+from ._plots import axes_or_new, bars
 from ._records import viewed
 from .robots import Robot
 
 #: A file, a dict with a file's keys, or a robot.
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Robot]
+#: The process of a command: FILE_DESCRIPTOR WORDS...
+_PROGRAM = "import sys, joulepath._core as c; sys.exit(c.program_main(['joulepath', *sys.argv[2:]], int(sys.argv[1])))"
 #: Exit codes that are an answer where the program printed one, beside 0.
 _ANSWERS = {"check": (2,), "drift": (1, 2), "batch": (1,), "monitor": (1,)}
 
@@ -55,6 +58,21 @@ class Answer:
             raise refused("name", repr(name), "one of: " + ", ".join(self.files))
         header, *rows = csv.reader(io.StringIO(self.files[name].decode()))
         return {key: _column([row[k] for row in rows]) for k, key in enumerate(header)}
+
+    def plot(self, axes: Any = None) -> Any:
+        """Energy over duration of a ``front``, energy by profile of a ``compare``; needs matplotlib. Returns the axes."""
+        if self.command == "compare":
+            return bars(axes, {profile.name: profile.energy_J for profile in self.json.profiles if profile.feasible}, "energy, J")
+        if self.command != "front":
+            raise refused("plot", f"an answer of {self.command}", "one of front or compare")
+        axes, points = axes_or_new(axes), self.json.points
+        axes.plot([p.duration_s for p in points], [p.energy_J for p in points], marker=".", label="least energy")
+        for name in dict.fromkeys(baseline.name for baseline in self.json.baselines):
+            driven = [b for b in self.json.baselines if b.name == name and b.feasible]
+            axes.plot([b.duration_s for b in driven], [b.energy_J for b in driven], ".", label=name)
+        axes.set(xlabel="duration, s", ylabel="energy, J")
+        axes.legend()
+        return axes
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
         """Writes the command's files. Raises ConfigError where one exists, unless ``force`` is given."""
@@ -127,20 +145,43 @@ def _failure(code: int, told: str) -> Exception:
                        hint or "")
 
 
-def _run(command: str, inputs: Mapping[str, Any], options: Mapping[str, Any], out: str = "", json_too: bool = True) -> Answer:
+def _told(words: list[str], folder: FilePath, progress: Progress) -> tuple[int, str, str]:
+    """Exit code of the program, and what it prints and says beside."""
+    printed, said = folder / "printed", folder / "said"
+    begin, end = os.pipe()
+    with os.fdopen(begin) as steps, open(printed, "wb") as out, open(said, "wb") as beside:
+        try:
+            process = subprocess.Popen([sys.executable, "-c", _PROGRAM, str(end), *words], stdin=subprocess.DEVNULL, stdout=out,
+                                       stderr=beside, pass_fds=[end])
+        finally:
+            os.close(end)
+        with process:
+            try:
+                for line in steps:
+                    if progress:
+                        progress(*map(int, line.split()))
+            except BaseException:
+                process.kill()
+                raise
+    texts = [file.read_text(encoding="utf-8", errors="replace") for file in (printed, said)]
+    return process.returncode, texts[0], texts[1]
+
+
+def _run(command: str, inputs: Mapping[str, Any], options: Mapping[str, Any], out: str = "", json_too: bool = True,
+         progress: Progress = None) -> Answer:
+    called(progress)
     with tempfile.TemporaryDirectory(prefix="joulepath-") as made:
         folder, target = FilePath(made), FilePath(made) / "out"
         target.mkdir()
         files = [_input(name, value, folder) for name, value in inputs.items()]
         place = [] if not out else ["--out", str(target / out) if out != "." else str(target)]
-        words = [*_words(options, folder), *place, *(["--json"] if json_too else []), "--", *files]
-        done = subprocess.run([sys.executable, "-m", "joulepath", command, *words], capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL)
-        if done.returncode and not (done.returncode in _ANSWERS.get(command, ()) and done.stdout.strip()):
-            raise _failure(done.returncode, done.stderr.replace(f"{made}/", ""))
+        words = [command, *_words(options, folder), *place, *(["--json"] if json_too else []), "--", *files]
+        code, *told = _told(words, folder, progress)
+        text, messages = (part.replace(f"{made}/", "") for part in told)
+        if code and not (code in _ANSWERS.get(command, ()) and text.strip()):
+            raise _failure(code, messages)
         written = {str(file.relative_to(target)): _bytes(file, made) for file in sorted(target.rglob("*")) if file.is_file()}
-    text, messages = (told.replace(f"{made}/", "") for told in (done.stdout, done.stderr))
-    return Answer(command, text, done.returncode, messages, written)
+    return Answer(command, text, code, messages, written)
 
 
 def _bytes(file: FilePath, folder: str) -> bytes:
@@ -149,20 +190,22 @@ def _bytes(file: FilePath, folder: str) -> bytes:
     return content.replace(f"{folder}/".encode(), b"") if file.suffix in (".json", ".html", ".csv", ".yaml") else content
 
 
-def check(*files: Source, **options: Any) -> Answer:
-    """Validates inputs, as ``joulepath check``: ``json`` has ``ok`` and ``error`` or ``notes`` of each. Raises ConfigError
-    for options that it does not have."""
-    return _run("check", {f"files_{k}": file for k, file in enumerate(files)}, options)
+def check(*files: Source, progress: Progress = None, **options: Any) -> Answer:
+    """Validates inputs, as ``joulepath check``: ``json`` has ``ok`` and ``error`` or ``notes`` of each.
+    ``progress(done, total)`` is called after each file. Raises ConfigError for options that it does not have."""
+    return _run("check", {f"files_{k}": file for k, file in enumerate(files)}, options, progress=progress)
 
 
-def compare(mission: Source, **options: Any) -> Answer:
-    """A plan beside the classic profiles, as ``joulepath compare``. Options: the command's. Raises ConfigError, PlanningError."""
-    return _run("compare", {"mission": mission}, options, ".")
+def compare(mission: Source, *, progress: Progress = None, **options: Any) -> Answer:
+    """A plan beside the classic profiles, as ``joulepath compare``. Options: the command's. ``progress(done, total)``
+    is called after each step. Raises ConfigError, PlanningError."""
+    return _run("compare", {"mission": mission}, options, ".", progress=progress)
 
 
-def front(mission: Source, **options: Any) -> Answer:
-    """Least energy for each duration, as ``joulepath front``. Options: the command's. Raises ConfigError, PlanningError."""
-    return _run("front", {"mission": mission}, options, ".")
+def front(mission: Source, *, progress: Progress = None, **options: Any) -> Answer:
+    """Least energy for each duration, as ``joulepath front``. Options: the command's. ``progress(done, total)`` is
+    called after each step and point. Raises ConfigError, PlanningError."""
+    return _run("front", {"mission": mission}, options, ".", progress=progress)
 
 
 def estimate(log: Source | Any, **options: Any) -> Answer:
@@ -178,32 +221,36 @@ def export(mission: Source | Any, to: str, name: str = "export.json", **options:
     return _run("export", {"mission": mission}, {"to": to, **options}, name)
 
 
-def batch(missions: Source | list[Mapping[str, Any]], **options: Any) -> Answer:
-    """Many missions, as ``joulepath batch``: a directory, a file or a list of dicts. ``json`` has each one's outcome; ``code``
-    is 1 where some cannot be read. Raises ConfigError."""
-    return _run("batch", {"missions": missions}, options, ".")
+def batch(missions: Source | list[Mapping[str, Any]], *, progress: Progress = None, **options: Any) -> Answer:
+    """Many missions, as ``joulepath batch``: a directory, a file or a list of dicts. ``json`` has each one's outcome;
+    ``code`` is 1 where some cannot be read. ``progress(done, total)`` is called after each mission. Raises
+    ConfigError."""
+    return _run("batch", {"missions": missions}, options, ".", progress=progress)
 
 
-def sweep(study: Source, **options: Any) -> Answer:
-    """Many designs of a robot, as ``joulepath sweep``; ``table("sweep.csv")`` has a row for each. Raises ConfigError."""
-    return _run("sweep", {"study": study}, options, ".")
+def sweep(study: Source, *, progress: Progress = None, **options: Any) -> Answer:
+    """Many designs of a robot, as ``joulepath sweep``; ``table("sweep.csv")`` has a row for each.
+    ``progress(done, total)`` is called after each plan. Raises ConfigError."""
+    return _run("sweep", {"study": study}, options, ".", progress=progress)
 
 
-def calibrate(dataset: Source, **options: Any) -> Answer:
-    """Constants fitted to runs, as ``joulepath calibrate``; ``files["robot.yaml"]`` is the fitted robot. Raises ConfigError."""
-    return _run("calibrate", {"dataset": dataset}, options, "robot.yaml")
+def calibrate(dataset: Source, *, progress: Progress = None, **options: Any) -> Answer:
+    """Constants fitted to runs, as ``joulepath calibrate``; ``files["robot.yaml"]`` is the fitted robot.
+    ``progress(done, total)`` is called after each log and fit. Raises ConfigError."""
+    return _run("calibrate", {"dataset": dataset}, options, "robot.yaml", progress=progress)
 
 
-def experiment(dataset: Source, **options: Any) -> Answer:
-    """The run that best separates the candidates of a diagnosis, as ``joulepath experiment``: ``files["mission.yaml"]``, none
-    where nothing is left to separate (``messages`` says so). Raises ConfigError."""
-    return _run("experiment", {"dataset": dataset}, options, "mission.yaml", json_too=False)
+def experiment(dataset: Source, *, progress: Progress = None, **options: Any) -> Answer:
+    """The run that best separates the candidates of a diagnosis, as ``joulepath experiment``:
+    ``files["mission.yaml"]``, none where nothing is left to separate (``messages`` says so). ``progress(done, total)``
+    is called after each log and step. Raises ConfigError."""
+    return _run("experiment", {"dataset": dataset}, options, "mission.yaml", json_too=False, progress=progress)
 
 
-def drift(*days: Source | Any, **options: Any) -> Answer:
-    """Constants that changed since the first day, as ``joulepath drift``: ``code`` is 0 without drift, 1 with it, 2 where runs
-    cannot tell. Raises ConfigError."""
-    return _run("drift", {f"days_{k}": day for k, day in enumerate(days)}, options)
+def drift(*days: Source | Any, progress: Progress = None, **options: Any) -> Answer:
+    """Constants that changed since the first day, as ``joulepath drift``: ``code`` is 0 without drift, 1 with it, 2
+    where runs cannot tell. ``progress(done, total)`` is called after each log and fit. Raises ConfigError."""
+    return _run("drift", {f"days_{k}": day for k, day in enumerate(days)}, options, progress=progress)
 
 
 def monitor(plan: str | os.PathLike[str], log: Source | Any, robot: Source, **options: Any) -> Answer:

@@ -17,7 +17,8 @@ from . import _core
 from ._errors import named_by, refused
 from ._files import save
 from ._frames import columns_of, is_frame, names_read
-from ._inputs import encodable, file_name, text_of
+from ._inputs import Progress, called, encodable, file_name, text_of
+from ._plots import bars
 from ._records import Record
 from ._values import Value
 from .robots import Robot, robot_of
@@ -96,6 +97,10 @@ class Diagnosis(Value):
         corrected = self._value.robot()
         return None if corrected is None else Robot._of(corrected)
 
+    def plot(self, axes: Any = None) -> Any:
+        """The gap's energy where it lies (``where``); needs matplotlib. Returns the axes."""
+        return bars(axes, {f"{cell.axis} {cell.value}": cell.energy_J for cell in self.where}, "gap, J")
+
     def report(self) -> str:
         """report.html: one self-contained page."""
         return self._value.report()
@@ -121,23 +126,24 @@ class Diagnosis(Value):
 
 @overload
 def diagnose(robot: RobotLike | None, logs: str | os.PathLike[str] | LogLike | Run | Iterable[LogLike | Run], *, columns: Mapping[str, Any] | None = None,
-             without: Iterable[str] = ()) -> Diagnosis: ...
+             without: Iterable[str] = (), progress: Progress = None) -> Diagnosis: ...
 
 
 @overload
 def diagnose(logs: str | os.PathLike[str] | LogLike | Run | Iterable[LogLike | Run], *, robot: RobotLike | None = None, columns: Mapping[str, Any] | None = None,
-             without: Iterable[str] = ()) -> Diagnosis: ...
+             without: Iterable[str] = (), progress: Progress = None) -> Diagnosis: ...
 
 
 def diagnose(*given: Any, robot: Any = None, logs: Any = None, columns: Mapping[str, Any] | None = None,
-             without: Iterable[str] = ()) -> Diagnosis:
+             without: Iterable[str] = (), progress: Progress = None) -> Diagnosis:
     """Locates the gap between model and logs, names its cause, measures how much a correction shrinks it.
 
     ``diagnose(robot, logs)`` or ``diagnose(logs, robot=robot)``. ``logs``: a dataset file (YAML), a log, or a list of logs: file
     names, data frames, dicts of arrays, Logs, or a Run of one of them with its circumstances. Columns are those of the run log
     format, in SI units, of one length; NaN and None are missing values. ``columns`` maps other names and units as in a dataset
     file; a bag's other channels are read as ``joulepath check`` proposes them. ``without``: effects taken out of the catalog.
-    ``robot`` may be None with a dataset file, which names its own. Raises ConfigError, for a value that is no number with
+    ``robot`` may be None with a dataset file, which names its own. ``progress(done, total)`` is called after each log of a
+    dataset and each step of the diagnosis; an error of it ends the call. Raises ConfigError, for a value that is no number with
     its column and row.
 
     >>> diagnose(Robot.example(), [{"time_s": [0, 1], "linear_speed_m_s": [0, "fast"], "angular_speed_rad_s": [0, 0]}])
@@ -152,12 +158,13 @@ def diagnose(*given: Any, robot: Any = None, logs: Any = None, columns: Mapping[
         logs = given[0]
     elif given:
         robot = given[0]
+    called(progress)
     left_out = [without] if isinstance(without, str) else _words("without", without)
     if isinstance(logs, Run) or is_frame(logs) or _is_file(logs, (".csv", ".mcap", ".db3")):
         logs = [logs]
     if isinstance(logs, (str, os.PathLike)):
         value = None if robot is None else robot_of(robot)._value
-        return Diagnosis(_core.diagnose_file(file_name("logs", logs), value, left_out))
+        return Diagnosis(_core.diagnose_file(file_name("logs", logs), value, left_out, progress))
     if not isinstance(logs, Iterable):
         raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, a log, or a list of logs")
     if robot is None:
@@ -170,7 +177,7 @@ def diagnose(*given: Any, robot: Any = None, logs: Any = None, columns: Mapping[
     dataset: dict[str, Any] = {"runs": runs} if columns is None else {"runs": runs, "columns": dict(columns)}
     places = {run["file"]: f"logs[{index}]" for index, run in enumerate(runs) if run["file"] in frames}
     with named_by(functools.partial(_place, places)):
-        return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out))
+        return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out, progress))
 
 
 def _place(frames: Mapping[str, str], file: str, key: str) -> str | None:

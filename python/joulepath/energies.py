@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import refused
 from ._inputs import samples, times
+from ._plots import bars
 from ._values import Value
 from .logs import Log
 from .robots import Robot, robot_of
@@ -52,6 +54,11 @@ class Energy(Value):
     def power(self) -> Log:
         """Wheel speed, torque, current, voltage and power at the samples."""
         return Log(self._value.power())
+
+    def plot(self, axes: Any = None) -> Any:
+        """Energy by cause; needs matplotlib. Returns the axes."""
+        least_J = 1e-9 * abs(self.total_J)  # less is rounding
+        return bars(axes, {cause: joules for cause, joules in self.causes_J.items() if abs(joules) > least_J}, "energy, J")
 
     def __repr__(self) -> str:
         return f"Energy({self.total_J:.6g} J, {self.distance_m:.6g} m, {self.duration_s:.6g} s)"

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import refused
-from ._inputs import number, numbers, whole
+from ._inputs import caps, number, numbers, whole
 from ._values import Value
 from .pieces import Drive, given_drive, on_board_kg
 
@@ -130,14 +130,10 @@ class Replanner:
         ``speed_caps``: shape (N, 3), from (m), to (m), speed (m/s). ``stop_at``: the path is blocked from there on.
         ``iterations`` and ``cpu_s`` bound the work; the GIL is released meanwhile. Raises ConfigError.
         """
-        caps = np.empty((0, 3)) if np.size(speed_caps) == 0 else numbers("speed_caps", speed_caps, 2)
-        if caps.shape[1] != 3:
-            raise refused("speed_caps", f"shape {caps.shape}", "shape (N, 3): from (m), to (m), speed (m/s)")
-        if (caps[:, 2] <= 0).any() or (caps[:, 1] < caps[:, 0]).any():
-            raise refused("speed_caps", "a row with from > to, or with a speed <= 0", "from <= to, and a speed > 0")
         return Replan(self._value.replan(
             number("s", s, least=0.0, most=self._drive.length), number("rate", rate, least=0.0),
-            on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s), caps,
+            on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s),
+            caps("speed_caps", speed_caps),
             math.inf if stop_at is None else number("stop_at", stop_at), whole("iterations", iterations, 1, 10000),
             math.inf if cpu_s is None else number("cpu_s", cpu_s, above=0.0)))
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._errors import Infeasible, PlanningError, refused
 from ._files import save
-from ._inputs import file_name, number, numbers, one_of, text_of, times, whole
+from ._inputs import Progress, called, caps, file_name, number, numbers, one_of, text_of, times, whole
 from ._records import Record
 from ._values import Value
 from .logs import Log
@@ -27,7 +27,8 @@ SOLVERS = ("ipopt", "fast")
 
 
 class Plan(Value):
-    """An energy-optimal plan. ``json`` holds all of plan.json; its main parts are attributes here."""
+    """An energy-optimal plan. ``json`` holds all of plan.json; its main parts are attributes here. ``t``, ``s``, ``v``, ``a``,
+    ``w`` and ``power_W`` are read-only views of shape (N,)."""
 
     def __init__(self, value: _core.PlanValue) -> None:
         self._value = value
@@ -103,6 +104,36 @@ class Plan(Value):
         return Log(self._value.trajectory())
 
     @property
+    def t(self) -> NDArray[np.float64]:
+        """Time, s, shape (N,)."""
+        return self.trajectory["time_s"]
+
+    @property
+    def s(self) -> NDArray[np.float64]:
+        """Arc length, m, shape (N,)."""
+        return self.trajectory["arc_length_m"]
+
+    @property
+    def v(self) -> NDArray[np.float64]:
+        """Speed, m/s, shape (N,)."""
+        return self.trajectory["linear_speed_m_s"]
+
+    @property
+    def a(self) -> NDArray[np.float64]:
+        """Acceleration, m/s2, shape (N,)."""
+        return self.trajectory["linear_acceleration_m_s2"]
+
+    @property
+    def w(self) -> NDArray[np.float64]:
+        """Yaw rate, rad/s, shape (N,)."""
+        return self.trajectory["angular_speed_rad_s"]
+
+    @property
+    def power_W(self) -> NDArray[np.float64]:
+        """Power at the battery's terminals, W, shape (N,)."""
+        return self.trajectory["battery_power_W"]
+
+    @property
     def _driven(self) -> bool:
         return self._value.driven
 
@@ -169,7 +200,7 @@ class Plan(Value):
 
 
 class Profile(Plan):
-    """The plan along one path. ``t``, ``s``, ``v``, ``a``, ``w`` and ``power_W`` are read-only views of shape (N,).
+    """The plan along one path.
 
     >>> p = profile(Robot.example(), [[0, 0], [3, 0]])
     >>> len(p.t) == len(p.v) == len(p.power_W)
@@ -177,36 +208,6 @@ class Profile(Plan):
     >>> p.at(0.0)["linear_speed_m_s"], p.at([0.0, 1.0])["linear_speed_m_s"].shape
     (0.0, (2,))
     """
-
-    @property
-    def t(self) -> NDArray[np.float64]:
-        """Time, s, shape (N,)."""
-        return self.trajectory["time_s"]
-
-    @property
-    def s(self) -> NDArray[np.float64]:
-        """Arc length, m, shape (N,)."""
-        return self.trajectory["arc_length_m"]
-
-    @property
-    def v(self) -> NDArray[np.float64]:
-        """Speed, m/s, shape (N,)."""
-        return self.trajectory["linear_speed_m_s"]
-
-    @property
-    def a(self) -> NDArray[np.float64]:
-        """Acceleration, m/s2, shape (N,)."""
-        return self.trajectory["linear_acceleration_m_s2"]
-
-    @property
-    def w(self) -> NDArray[np.float64]:
-        """Yaw rate, rad/s, shape (N,)."""
-        return self.trajectory["angular_speed_rad_s"]
-
-    @property
-    def power_W(self) -> NDArray[np.float64]:
-        """Power at the battery's terminals, W, shape (N,)."""
-        return self.trajectory["battery_power_W"]
 
 
 def _solver_options(solver: Any, nodes: Any, accuracy: Any) -> tuple[str, int, float]:
@@ -222,11 +223,12 @@ def _failure(result: Plan, along_path: bool) -> PlanningError:
 
 
 def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time_s: float | None = None,
-            solver: str = "ipopt", nodes: int = 200, accuracy: float = 1e-4) -> Profile:
+            speed_caps: ArrayLike = (), solver: str = "ipopt", nodes: int = 200, accuracy: float = 1e-4) -> Profile:
     """The speed profile of least energy along a path, from rest to rest, within every limit of the robot.
 
     ``xy``: waypoints, shape (N, 2) in m, or a Path. ``payload_kg``: at most what the robot may carry. ``time_s``: duration;
-    None is that of least energy. ``solver``: ``ipopt`` (reference) or ``fast``. ``nodes``: of the grid, 10 to 20000.
+    None is that of least energy. ``speed_caps``: limits along the path, shape (N, 3), from (m), to (m), speed (m/s).
+    ``solver``: ``ipopt`` (reference) or ``fast``. ``nodes``: of the grid, 10 to 20000.
     ``accuracy``: relative, of the energy. The GIL is released meanwhile. Raises Infeasible, PlanningError, ConfigError.
     """
     if not (type(robot) is Robot and type(xy) is Path and type(payload_kg) is float and 0.0 <= payload_kg < math.inf
@@ -238,7 +240,8 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
         time_s = None if time_s is None else number("time_s", time_s, above=0.0)
         solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
     result = Profile.__new__(Profile)  # before the solver fills the caches with its own data
-    result._value, driven = _core.profile(robot._value, xy._value, payload_kg, time_s, solver, nodes, accuracy)
+    result._value, driven = _core.profile(robot._value, xy._value, payload_kg, time_s,
+                                            caps("speed_caps", speed_caps), solver, nodes, accuracy)
     if not driven:
         raise _failure(result, along_path=True)
     return result
@@ -247,14 +250,15 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
 def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | str | os.PathLike[str] | None = None,
          map: str | os.PathLike[str] | None = None, payload_kg: float | None = None, time_s: float | None = None,
          solver: str = "ipopt", nodes: int = 200, seed: int = 1, accuracy: float = 1e-4,
-         baselines: bool = True) -> Plan:
+         baselines: bool = True, progress: Progress = None) -> Plan:
     """Plans a mission for the least energy, as ``joulepath plan`` does.
 
     ``mission``: a file (mission, VDA 5050 order, path), or a dict with the keys of a mission file, whose file names
     are relative to the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
     mission's; ``payload_kg`` and ``time_s`` are for a path. ``solver``, ``nodes`` and ``accuracy`` as of ``profile``;
-    ``seed``: of the search for a path; ``baselines``: whether classic profiles are planned for comparison. The GIL is
-    released meanwhile. Raises Infeasible, PlanningError, ConfigError.
+    ``seed``: of the search for a path; ``baselines``: whether classic profiles are planned for comparison.
+    ``progress(done, total)`` is called after each step (of a leg: way, profile, comparison, bound); an error of it ends the
+    call. The GIL is released meanwhile. Raises Infeasible, PlanningError, ConfigError.
 
     >>> route = [[0, 0], [1, 0], [1, 0], [1, 1]]
     >>> drive = plan({"robot": Robot.example(), "legs": [{"path": {"bezier_m": [route]}, "payload_kg": 5}]}, solver="fast")
@@ -262,7 +266,7 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
     ('optimal', 1, 5.0)
     """
     solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
-    options = (solver, nodes, whole("seed", seed, 0, 2**32 - 1), accuracy, bool(baselines))
+    options = (solver, nodes, whole("seed", seed, 0, 2**32 - 1), accuracy, bool(baselines), called(progress))
     if isinstance(mission, Mapping):
         if payload_kg is not None or time_s is not None:
             raise refused("payload_kg" if payload_kg is not None else "time_s", "a value together with a mission",

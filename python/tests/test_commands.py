@@ -33,6 +33,15 @@ def test_check_compare_and_front_print_the_program_s_bytes(program, mission):
         answer = function("mission.yaml", **options)
         assert answer.text == printed(program, command, "mission.yaml", *words, "--out", command)
         assert answer.files[name] == pathlib.Path(command, name).read_bytes()
+        shown = answer.plot()
+        if function is jp.front:
+            points = [[p.duration_s, p.energy_J] for p in answer.json.points]
+            assert shown.lines[0].get_xydata().tolist() == points and len(points) == 3
+        else:
+            driven = [p.energy_J for p in answer.json.profiles if p.feasible]
+            assert [bar.get_width() for bar in shown.patches] == driven and len(driven) > 5
+    with pytest.raises(jp.ConfigError, match="one of front or compare"):
+        jp.check("mission.yaml", brief=True).plot()
 
 
 def test_estimate_of_a_frame_is_that_of_its_file(program, robot, mission):

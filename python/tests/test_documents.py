@@ -2,6 +2,7 @@
 import doctest
 import importlib
 import inspect
+import os
 import pathlib
 import pkgutil
 import re
@@ -104,3 +105,16 @@ def test_notebooks_run_and_keep_no_output(notebook, tmp_path):
     code = [cell for cell in book.cells if cell.cell_type == "code"]
     assert code and not any(cell.outputs or cell.execution_count for cell in code)
     nbclient.NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    if pages := os.environ.get("JOULEPATH_NOTEBOOKS"):  # for the site
+        write_page(book, notebook.stem, pathlib.Path(pages))
+
+
+def write_page(book, name, pages):
+    """The notebook with its outputs as Markdown, pictures beside it."""
+    nbconvert, traitlets = pytest.importorskip("nbconvert"), pytest.importorskip("traitlets.config")
+    shown = traitlets.Config({"NbConvertBase": {"display_data_priority": ["image/png", "text/plain"]}})
+    text, resources = nbconvert.MarkdownExporter(config=shown).from_notebook_node(
+        book, {"unique_key": name, "output_files_dir": f"{name}_files"})
+    for file, content in {f"{name}.md": text.encode(), **resources["outputs"]}.items():
+        (pages / file).parent.mkdir(parents=True, exist_ok=True)
+        (pages / file).write_bytes(content)

@@ -82,10 +82,28 @@ def test_an_effect_of_the_robot_costs_what_it_says(robot, curve):
     assert e.causes_J["rolling_resistance"] == pytest.approx(0.02 * weight_N * curve.s[-1], rel=0.01)
 
 
+def test_limits_along_the_path_hold_there_alone(robot):
+    xy, caps = [[0, 0], [5, 0]], np.array([[1.0, 2.0, 0.2], [3.0, 3.5, 0.3]])
+    free, capped = jp.profile(robot, xy), jp.profile(robot, xy, speed_caps=caps)
+    for begin_m, end_m, speed_m_s in caps:
+        inside = (capped.s > begin_m) & (capped.s < end_m)
+        assert capped.v[inside].max() <= speed_m_s * (1 + 1e-6) < free.v[(free.s > begin_m) & (free.s < end_m)].max()
+    assert capped.v.max() > 0.3 * (1 + 1e-6) and capped.energy_J > free.energy_J
+    zones = [{"leg": 0, "from_m": a, "to_m": b, "speed_m_s": v} for a, b, v in caps.tolist()]
+    mission = {"robot": robot, "legs": [{"path": {"bezier_m": [[[0, 0], [5 / 3, 0], [10 / 3, 0], [5, 0]]]}}], "speed_zones": zones}
+    plan = jp.plan(mission)
+    assert abs(plan.energy_J / capped.energy_J - 1) < 1e-4 and np.array_equal(plan.v, plan.trajectory["linear_speed_m_s"])
+    for wrong in ([[1, 2]], [[2, 1, 0.3]], [[1, 2, 0]], [[1, 2, np.nan]], [1, 2, 0.3]):
+        with pytest.raises(jp.ConfigError, match="speed_caps"):
+            jp.profile(robot, xy, speed_caps=wrong)
+
+
 def test_frames_plots_and_reports(curve):
     frame = curve.to_frame()
     assert list(frame.columns) == list(curve.trajectory) and len(frame) == len(curve.t)
     assert len(curve.plot()) == 2
+    energy = jp.energy(curve.robot, curve.t, curve.v, curve.w)
+    assert abs(sum(bar.get_width() for bar in energy.plot().patches) - energy.total_J) < 1e-8 * energy.total_J
     assert curve._repr_html_().startswith("<iframe srcdoc=")
     assert "Profile(optimal" in repr(curve)
 

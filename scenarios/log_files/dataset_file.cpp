@@ -7,6 +7,7 @@
 
 #include "diagnosis/checks/plausible.hpp"
 #include "model/number_text.hpp"
+#include "model/progress.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/log_files/clock_jumps.hpp"
 #include "scenarios/log_files/log_tables.hpp"
@@ -304,7 +305,12 @@ Dataset dataset_from(const Document& document, const ReadOptions& options, const
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   RunReader reader(dataset, sources, options, memory);
-  for (const auto& run : root["runs"].items()) reader.read(run);
+  const std::vector<Node> runs = root["runs"].items();
+  expect_steps(runs.size());
+  for (const Node& run : runs) {
+    reader.read(run);
+    finish_steps();
+  }
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }

@@ -5,6 +5,7 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "model/limit_table.hpp"
+#include "model/progress.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -58,6 +59,7 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
   // Even entries: plans of the nominal robot; odd entries: of the corrected robot. Joules on the driven
   // plant.
   std::vector<double> energy_J(2 * missions.size());
+  const StepScope uncounted(nullptr);
   parallel_for(energy_J.size(), [&](std::size_t k) {
     const Robot& robot = k % 2 == 0 ? nominal : corrected;
     energy_J[k] = energy_on(plant, plan_mission(missions[k / 2], {.robot = with_limits(robot)}, options));
@@ -70,7 +72,7 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
     nominal_J += energy_J[2 * m];
     corrected_J += energy_J[2 * m + 1];
   }
-  if (corrected_J > 0) cost.joules_lost_percent = 100.0 * (nominal_J - corrected_J) / corrected_J;
+  if (nominal_J > 0) cost.joules_lost_percent = 100.0 * (nominal_J - corrected_J) / nominal_J;
   return cost;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/abilities.hpp"
 #include "model/printable.hpp"
@@ -27,6 +28,15 @@ constexpr double kLeastEnergy_Wh_kg = 1.0;  ///< of the whole robot; supercapaci
 constexpr double kMostMotorVoltage = 1.5;   ///< over the battery's voltage
 constexpr double kLeastRolling = 0.002;     ///< friction over weight: steel wheels on rails
 constexpr double kGreatestReach = 10.0;     ///< of the outline, in half tracks
+constexpr double kMostMass_kg_m2 = 5000.0;  ///< of the chassis over the disk within its outline
+constexpr double kMostTorqueConstant_Nm_A = 2.0;  ///< of a motor with a gear
+
+/// Greatest distance of the outline from the axle's middle along the heading.
+double length_m(const Robot& robot) {
+  double length_m = robot.footprint.radius_m;
+  for (const auto& [x_m, y_m] : robot.footprint.polygon_m) length_m = std::max(length_m, std::abs(x_m));
+  return length_m > 0.0 ? length_m : kReachInHalfTracks * robot.geometry.half_track_m;
+}
 
 /// Greatest distance of the outline from the chassis' center of mass.
 double reach_m(const Robot& robot) {
@@ -41,8 +51,10 @@ double reach_m(const Robot& robot) {
 class Notes {
  public:
   void add(std::string note) { notes_.push_back(std::move(note)); }
-  void over(const std::string& key, double value, double most, const std::string& why, const char* slip) {
-    if (std::isfinite(value) && value > most) note(key, value, "at most ", most, why, slip);
+  bool over(const std::string& key, double value, double most, const std::string& why, const char* slip) {
+    const bool is = std::isfinite(value) && value > most;
+    if (is) note(key, value, "at most ", most, why, slip);
+    return is;
   }
   void under(const std::string& key, double value, double least, const std::string& why, const char* slip) {
     if (std::isfinite(least) && value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
@@ -112,7 +124,8 @@ void note_motors(const Robot& robot, Notes& notes) {
     notes.add("the robot cannot move: its " + std::string(side_name(side)) + " motor gives " +
               four_digits(able.motor_torque_Nm[side]) + " N m at the wheel, and " +
               four_digits(able.friction_torque_Nm[side]) +
-              " N m of friction resist; is gear_ratio inverse, or resistance_ohm in milliohm?");
+              " N m of friction resist; is gear_ratio inverse, resistance_ohm in milliohm, or "
+              "friction_torque_Nm in N cm?");
     return;
   }
   const Motor &left = robot.motor.left, &right = robot.motor.right;
@@ -125,7 +138,9 @@ void note_motors(const Robot& robot, Notes& notes) {
   if (std::isfinite(limit_m_s))
     notes.under("motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",
                 able.top_speed_m_s, kLeastTopSpeed * limit_m_s, at_limit,
-                "is the voltage that of one cell, or gear_ratio that of another motor?");
+                motor.gear_ratio > 1 && motor.torque_constant_Nm_A > kMostTorqueConstant_Nm_A
+                    ? "is motor.torque_constant_Nm_A in mN m/A?"
+                    : "is the voltage that of one cell, or gear_ratio that of another motor?");
   notes.under("motor.resistance_ohm", motor.resistance_ohm,
               motor.max_voltage_V / (kMostStallCurrent * motor.max_current_A),
               "ohm for max_voltage_V and max_current_A", "is it in kiloohm?");
@@ -137,6 +152,14 @@ std::vector<std::string> implausible_constants(const Robot& robot) {
   Notes notes;
   note_motors(robot, notes);
   const double mass_kg = robot.total_mass_kg(0.0), far_m = reach_m(robot);
+  // What follows depends on mass and center of mass.
+  if (notes.over("geometry.center_of_mass_offset_m, without its sign,",
+                 std::abs(robot.geometry.center_of_mass_offset_m), length_m(robot), "m for this outline",
+                 "is it in cm?") ||
+      notes.over("inertia.chassis_mass_kg", robot.inertia.chassis_mass_kg,
+                 kMostMass_kg_m2 * std::numbers::pi * far_m * far_m, "kg within " + four_digits(far_m) + " m",
+                 "is it in g?"))
+    return notes.take();
   const double ring_kg_m2 = robot.inertia.chassis_mass_kg * far_m * far_m;  // all of the mass at the outline
   const std::string size =
       "kg m^2 for " + four_digits(robot.inertia.chassis_mass_kg) + " kg within " + four_digits(far_m) + " m";

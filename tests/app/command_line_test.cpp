@@ -214,6 +214,9 @@ TEST(CommandLine, AnUnknownArgumentIsReportedBeforeAMissingOne) {
   EXPECT_NE(result.err.find("unknown argument --ouut (did you mean --out?)"), std::string::npos)
       << result.err;
   EXPECT_NE(run_program(scratch, "plan mission.yaml").err.find("--out is required"), std::string::npos);
+  EXPECT_NE(run_program(scratch, "diagnose run_01.csv '" + kBroken + "good/robot.yaml'")
+                .err.find("robot.yaml, one file too many"),
+            std::string::npos);
 }
 
 TEST(CommandLine, ExportWritesAllItsFilesOrNone) {

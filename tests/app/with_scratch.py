@@ -31,6 +31,7 @@ class WithScratch(unittest.TestCase):
         self.scratch = tempfile.mkdtemp(prefix="joulepath_faults_")
         os.chmod(self.scratch, 0o777)
         os.environ["XDG_CACHE_HOME"] = self.scratch + "/cache"
+        os.environ["SOURCE_DATE_EPOCH"] = "86400"  # reports name the day, also where midnight falls between two of them
         self.addCleanup(shutil.rmtree, self.scratch, ignore_errors=True)
         shutil.copy(ROBOT, self.at("robot.yaml"))
         with open(self.at("m.jsonl"), "w") as file:

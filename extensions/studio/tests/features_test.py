@@ -119,6 +119,20 @@ def check_first_picture(page, server):
     assert server.post("answer", {**question, "page": "two"})["search"] == searches[1] + 1, "another mission has the same answer"
 
 
+def check_no_picture(page, server):
+    """Where the first search finds no plan, its sketch and the figures of it go."""
+    page.call("POST", "/url", {"url": server.address})
+    page.until("return window.studio && studio.store.answer !== null", 60)
+    seen = "return [...document.querySelectorAll('.tiles .value, .causes, .plots canvas, .timeline')].map((one) => getComputedStyle(one).visibility)"
+    assert set(page.run(seen)) == {"visible"}, "the sketch has no figures"
+    sketch = page.run(INK, "#floor")
+    page.until("return studio.store.problem !== '' && !studio.store.working", 120)
+    assert page.run("return studio.store.answer") is None, "the sketch stays without a plan"
+    assert set(page.run(seen)) == {"hidden"}, "figures of the sketch stay"
+    page.until("return new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(() => go(true))))")
+    assert page.run(INK, "#floor") != sketch, "the way of the sketch stays"
+
+
 def check_limits_and_battery(page):
     legend = page.run("return document.querySelector('.legend').textContent")
     assert "Active limit" in legend and "%" in legend, legend
@@ -365,6 +379,11 @@ def check_all(program, folder, page):
     with Served(program, SOURCE / "scenarios/missions/warehouse_pick.yaml") as server:
         check_first_picture(page, server)
         print("ok: check_first_picture")
+    late = (SOURCE / "scenarios/missions/warehouse_pick.yaml").read_text().replace("../", f"{SOURCE}/scenarios/").replace("deadline_s: 193", "deadline_s: 178")
+    (folder / "late.yaml").write_text(late)  # in time along straight lines through the shelves, too late along ways
+    with Served(program, folder / "late.yaml") as server:
+        check_no_picture(page, server)
+        print("ok: check_no_picture")
     served(write_hall(folder, VISIT), named(check_visit))
     served(write_mission(folder), named(check_mixed_frames))
     served(SOURCE / "scenarios/missions/warehouse_order.yaml", named(check_order))

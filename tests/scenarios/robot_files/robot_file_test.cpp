@@ -56,6 +56,8 @@ TEST(RobotFile, ConstantsThatMassAndSizeContradictAreNoted) {
       {"chassis_yaw_inertia_kg_m2", [](Robot& r) { r.inertia.chassis_yaw_inertia_kg_m2 *= 1e-3; }},
       {"yaw_rate_rad_s", [](Robot& r) { r.limits->yaw_rate_rad_s *= 57.3; }},
       {"yaw_acceleration_rad_s2", [](Robot& r) { r.limits->yaw_acceleration_rad_s2 *= 57.3; }},
+      {"center_of_mass_offset_m", [](Robot& r) { r.geometry.center_of_mass_offset_m -= 5; }},
+      {"chassis_mass_kg", [](Robot& r) { r.inertia.chassis_mass_kg *= 1000; }},
       {"capacity_Wh", [](Robot& r) { r.battery.capacity_Wh *= 1000; }},
       {"capacity_Wh", [](Robot& r) { r.battery.capacity_Wh /= 25; }},
       {"standby_W", [](Robot& r) { r.power.standby_W *= 1000; }}};
@@ -109,7 +111,10 @@ TEST(RobotFile, MotorsThatDoNotFitTheRobotAreNoted) {
                         {"cannot move", [](Motor& m) { m.resistance_ohm *= 1000; }},
                         {"motor.resistance_ohm", [](Motor& m) { m.resistance_ohm /= 1000; }},
                         {"ten times too high", [](Motor& m) { m.max_voltage_V *= 10; }},
-                        {"of one cell", [](Motor& m) { m.max_voltage_V = 4.6; }}};
+                        {"of one cell", [](Motor& m) { m.max_voltage_V = 4.6; }},
+                        {"torque_constant_Nm_A in mN m/A", [](Motor& m) {
+                           m.torque_constant_Nm_A *= 1000, m.voltage_constant_V_s_rad *= 1000;
+                         }}};
   const Robot robot = read_robot(kNomad);
   for (const Slip& slip : slips) {
     Robot wrong = robot;

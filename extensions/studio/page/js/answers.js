@@ -103,8 +103,11 @@ export async function ask(mode, extra = {}, at_once = false) {
   return JSON.parse(text);
 }
 
+let sketched = false;
 function take(answer, state, edits) {
   if (answer.superseded) return;
+  if (sketched) Object.assign(store, {answer: null, state: "none"});
+  sketched = false;
   if (answer.error) {
     store.problem = answer.error.message.replace(/^[^ ]*\.json(:\d+:\d+)?: /, "");
   } else {
@@ -184,6 +187,7 @@ async function sketch() {
   const answer = await ask("draft", {samples: 300, paths: legs().map((leg, k) => (leg.to ? straight(place_after(k - 1), place_after(k)) : null))}, true);
   if (store.answer || store.verdict || store.problem || store.edits || !answer.motion) return;
   Object.assign(store, {answer, verdict: answer.plan, state: "draft"});
+  sketched = true;
   emit("answer");
 }
 

@@ -28,6 +28,7 @@ function top_bar() {
     problem.textContent = store.problem;
     back.disabled = !can_undo();
     again.disabled = !can_redo();
+    document.documentElement.dataset.plan = store.answer ? "shown" : "none";
     document.documentElement.dataset.state = store.working ? "working" : store.problem ? "problem" : store.state;
   };
   ["edit", "answer", "working", "settled", "files"].forEach((event) => on(event, show));
