@@ -32,9 +32,11 @@ class RouteSpace {
   /// Free space of the largest disc inside the outline: where it is blocked, every heading is blocked. The
   /// same for round robots.
   const FreeSpace& some_heading() const { return some_heading_ ? *some_heading_ : any_heading_; }
-  /// The floor on which to search a way: the first that connects two places of any_heading(), some_heading(),
-  /// and the latter on much smaller cells, which miss no corridor that is a centimetre wider than the disc.
-  /// The last one where none does.
+  /// As some_heading() on cells of 1.25 cm, where the floor is not too large: they miss no corridor that is
+  /// so much wider than the disc. Built at the first call.
+  const FreeSpace& narrow() const;
+  /// The floor on which to search a way between two places: the first that connects them of any_heading(),
+  /// some_heading() and narrow(); the last one where none does.
   const FreeSpace& floor_between(const Point2& a_m, const Point2& b_m) const;
   /// A point inside of every island (homotopy.hpp) of any_heading().
   const std::vector<Point2>& islands_m() const { return islands_m_; }

@@ -28,15 +28,15 @@ class Budget {
     for (const auto& [name, value] : planner->getPlannerProgressProperties())
       if (name.rfind("best cost", 0) == 0)
         best_cost_ = value;
-      else if (name.rfind("batches", 0) == 0)
-        batches_ = value;
+      else if (name.rfind("current free states", 0) == 0)
+        samples_ = value;
   }
 
   bool spent() {
     if (++iterations_ >= request_.max_iterations) return true;
     if (iterations_ % kLookEvery != 0 || !best_cost_) return false;
     const double cost = std::strtod(best_cost_().c_str(), nullptr);
-    if (!std::isfinite(cost)) return batches_ && std::strtol(batches_().c_str(), nullptr, 10) > kMostBatches;
+    if (!std::isfinite(cost)) return samples_ && std::strtol(samples_().c_str(), nullptr, 10) > kMostSamples;
     if (cost < (1 - kSettled) * settled_cost_) settled_cost_ = cost, settled_at_ = iterations_;
     return iterations_ - settled_at_ > request_.patience;
   }
@@ -45,10 +45,10 @@ class Budget {
  private:
   static constexpr unsigned kLookEvery = 32;
   static constexpr double kSettled = 0.002;
-  static constexpr long kMostBatches = 30;  ///< of 200 samples
+  static constexpr long kMostSamples = 6000;
 
   const SearchRequest& request_;
-  std::function<std::string()> best_cost_{}, batches_{};
+  std::function<std::string()> best_cost_{}, samples_{};
   unsigned iterations_{};
   double settled_cost_{std::numeric_limits<double>::infinity()};
   unsigned settled_at_{};

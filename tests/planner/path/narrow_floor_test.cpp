@@ -66,6 +66,7 @@ OccupancyGrid carved(const std::vector<Point2>& corners, double resolution_m, do
 
 TEST(NarrowFloor, AnOutlineFindsADriveThatIsKnown) {
   std::mt19937 random(7);
+  int found = 0;
   for (int k = 0; k < 24; ++k) {
     const std::vector<Point2> corners = drive_along_axes(random);
     OccupancyGrid map = carved(corners, k % 2 == 0 ? 0.05 : 0.1, 0.02);
@@ -84,10 +85,12 @@ TEST(NarrowFloor, AnOutlineFindsADriveThatIsKnown) {
     request.goal_x_m = drive.back()[0], request.goal_y_m = drive.back()[1];
     ASSERT_TRUE(outline_drives(space, request, drive)) << k;
     const RouteResult route = plan_route(space, request);
-    ASSERT_TRUE(route.found()) << k << ": " << route.verdict.message;
+    if (!route.found()) continue;
+    ++found;
     EXPECT_FALSE(space.checker().first_collision(route.path)) << k;
     EXPECT_LT(polyline_length_m(route.polyline_m), 1.01 * polyline_length_m(drive)) << k;
   }
+  EXPECT_EQ(found, 24);
 }
 
 TEST(NarrowFloor, AnOutlineThatHasNoRoomToTurnIsRefused) {
