@@ -38,7 +38,7 @@ KINDS = {
     "one odd run of twenty": dict(runs=20, odd_run=7),
     "battery and odometry": dict(battery_alone=True),
     "most of these together": dict(runs=20, filter_s=0.06, ticks=4000, dead_band=0.01, stiction=1.3, clock_s=0.04, **EMPTYING)}
-SHORT = ("6 runs", "coarse encoders behind a filter of 50 ms", "battery and odometry")
+SHORT = ("discharging battery, 20 runs", "gyro and wheel speeds half a sample apart")
 # A late electrical logger is a delay, and a filter makes the wheel speeds late: this name is no false alarm there.
 ALLOWED = {kind: {"time_misalignment"} for kind, day in KINDS.items() if "clock_s" in day or "filter_s" in day}
 
@@ -143,7 +143,7 @@ def drive(b, x, effect, day, load, number, start_s, charge, rng):
     phase = [rng.uniform(0, 2 * math.pi) for _ in range(2)]
     q, before, angle, i, V, held = [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]
     counted, estimate, integral, filtered, logged = [0, 0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0, 0]
-    held_turn, px, py, heading, bus_V = 0.0, 0.0, 0.0, 0.0, open_circuit_V(b, charge)
+    held_turn, of_call_A, px, py, heading, bus_V = 0.0, 0.0, 0.0, 0.0, 0.0, open_circuit_V(b, charge)
     sums, fast, slow = [0.0] * 5, [], []
     for step in range(len(called) * CONTROL):
         if step % CONTROL == 0:
@@ -176,6 +176,7 @@ def drive(b, x, effect, day, load, number, start_s, charge, rng):
         heading += STEP_S * w
         px, py = px + STEP_S * v * math.cos(heading), py + STEP_S * v * math.sin(heading)
         amperes = (standby + max(0.0, V[0] * i[0]) + max(0.0, V[1] * i[1])) / bus_V
+        of_call_A = amperes / CONTROL + (of_call_A if step % CONTROL else 0.0)  # what the monitor reads: not the ripple within a call
         rest_V = open_circuit_V(b, charge)
         bus_V = rest_V - Ri * amperes
         charge -= amperes * rest_V * STEP_S / 3600 / b["Wh"]
@@ -188,7 +189,7 @@ def drive(b, x, effect, day, load, number, start_s, charge, rng):
             fast.append([time_s, *speeds, *mean[:4], w if day.get("gyro_at_end") or filter_s else mean[4]])
             sums = [0.0] * 5
         if (step + 1) % SLOW == 0:
-            slow.append([time_s, bus_V, amperes, px, py, heading])
+            slow.append([time_s, bus_V, of_call_A, px, py, heading])
     return fast, slow, charge
 
 
