@@ -12,6 +12,7 @@
 #include "diagnosis/correction/runs_apart.hpp"
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
+#include "diagnosis/evidence/delay_search.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/next_run/next_run.hpp"
@@ -40,6 +41,7 @@ bool has_excuse(const std::vector<DataCheck>& checks) {
 }
 
 /// A fault of single runs is none of the file: another robot's file is wrong in the runs without one, too.
+/// Another clock, or a filter of the wheel speeds, imitates another resistance: the logs are read without it.
 std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, const RunsByUse& runs,
                                                         const std::vector<DataCheck>& checks) {
   std::set<std::size_t> faulty;
@@ -51,7 +53,10 @@ std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, 
   const bool excused = has_excuse(checks);
   if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound, excused).empty())
     return {};
-  return foreign_constants(dataset.robot, runs.signals, excused);
+  const std::vector<ForeignConstant> constants = foreign_constants(dataset.robot, runs.signals, excused);
+  const double delay_s = constants.empty() ? 0.0 : rough_channel_delay_s(runs.diagnosis);
+  return delay_s == 0 ? constants
+                      : foreign_constants(dataset.robot, read_signals(runs.diagnosis, delay_s), excused);
 }
 
 /// Causes relative to another robot's constants say nothing about this one.

@@ -255,6 +255,9 @@ inline constexpr double kUsualHeldMoment = 0.4;
 inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
 /// Error of time stamps over the log's period, 1-sigma. Chosen (0503).
 inline constexpr double kStampFraction = 0.06;
+/// Delay of another instrument than the motors' driver over the period of its readings, 1-sigma. Derived:
+/// half of it lies between a reading at the period's end and its mean (0501).
+inline constexpr double kReadingDelay = 0.5;
 /// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
 inline constexpr double kCalibrationBox = 3.0;
 /// Friction and the windings' resistance differ from run to run by this share at first; the fit re-estimates

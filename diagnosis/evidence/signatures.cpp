@@ -36,6 +36,9 @@ Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, c
   return (up - signature_rows(signals, point, base, predict_at(low))) / (high - low);
 }
 
+/// Of a derivative of sixth order over whole samples, for one, two and three samples on either side.
+constexpr std::array<double, 3> kSlopeWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
+
 constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 
 /// A variable of kFormVariables, scaled to [-1, 1].
@@ -84,7 +87,7 @@ class Differencer {
         point_(model_point(robot, nuisances, state)) {}
 
   Eigen::MatrixXd nuisance(std::size_t k, double step) const {
-    if (nuisances_[k].key == kStampNuisance) return kStampFraction * signals_.log_period_s * delay();
+    if (is_of_clocks(nuisances_[k])) return of_clock(nuisances_[k].key);
     return difference(signals_, point_, base_, -step, step, [&](double change) {
       ModelState changed = state_;
       changed.nuisance_fraction[k] += change;
@@ -133,6 +136,40 @@ class Differencer {
   }
 
  private:
+  /// Derivative by an error of an instrument's clock, in its 1-sigma.
+  Eigen::MatrixXd of_clock(const std::string& key) const {
+    if (key == kStampNuisance) return kStampFraction * signals_.log_period_s * delay();
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(signals_.size(), kChannelCount);
+    const ReadingPeriods& period_s = signals_.reading_period_s;
+    if (key == kGyroStampNuisance)
+      rows.col(kGyro) = -kReadingDelay * period_s.gyro_s * yaw_acceleration_rad_s2();
+    if (key == kBatteryStampNuisance)
+      rows.col(kDriverPower) = -kReadingDelay * period_s.battery_s * slope(base_.battery_power_W);
+    if (key == kBatteryMeanNuisance)
+      rows.col(kDriverPower) = std::pow(period_s.battery_s, 2) / 12 * slope(slope(base_.battery_power_W));
+    return rows;
+  }
+
+  /// By the kernel's slope: differences of rows flatten steep parts.
+  Eigen::VectorXd yaw_acceleration_rad_s2() const {
+    return Eigen::VectorXd::NullaryExpr(signals_.size(), [&](Eigen::Index j) {
+      return signals_.rolled_motion(robot_.geometry, j).yaw_acceleration_rad_s2;
+    });
+  }
+
+  /// Derivative of a channel by time, of sixth order; flat beyond its ends.
+  Eigen::VectorXd slope(const Eigen::VectorXd& channel) const {
+    const auto at = [&](Eigen::Index j) {
+      return channel[std::clamp<Eigen::Index>(j, 0, channel.size() - 1)];
+    };
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(channel.size());
+    for (Eigen::Index j = 0; j < channel.size(); ++j)
+      for (Eigen::Index k = 0; k < std::ssize(kSlopeWeight); ++k)
+        result[j] += kSlopeWeight[static_cast<std::size_t>(k)] / signals_.period_s *
+                     (at(j + k + 1) - at(j - k - 1));
+    return result;
+  }
+
   Prediction at(const ModelState& state) const {
     return predict(signals_, model_point(robot_, nuisances_, state));
   }
@@ -141,11 +178,10 @@ class Differencer {
   /// the predicted readings. A sixth-order difference over whole samples is used: half samples would blur the
   /// readings, and a lower order flattens steep parts, whose residual then imitates an acceleration.
   Eigen::MatrixXd delay() const {
-    constexpr std::array<double, 3> kWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(signals_.size(), kChannelCount);
-    for (std::size_t k = 0; k < kWeight.size(); ++k) {
+    for (std::size_t k = 0; k < kSlopeWeight.size(); ++k) {
       const double shift_s = static_cast<double>(k + 1) * signals_.period_s;
-      slope += kWeight[k] / signals_.period_s *
+      slope += kSlopeWeight[k] / signals_.period_s *
                (signature_rows(signals_, point_, base_, shifted(shift_s)) -
                 signature_rows(signals_, point_, base_, shifted(-shift_s)));
     }

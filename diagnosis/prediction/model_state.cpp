@@ -16,8 +16,8 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
       point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * state.nuisance_fraction[k];
     else if (nuisances[k].key == kHeldTurnNuisance)
       point.held_moment_Nm[*nuisances[k].side] = usual_held_moment_Nm(robot) * state.nuisance_fraction[k];
-    else if (nuisances[k].key == kStampNuisance)
-      continue;  // a column of the linear problem only: too small to read the signals again
+    else if (is_of_clocks(nuisances[k]))
+      continue;
     else if (is_payload_nuisance(nuisances[k]))
       point.payload_factor *= 1 + state.nuisance_fraction[k];
     else

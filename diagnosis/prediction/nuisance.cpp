@@ -1,16 +1,28 @@
 #include "diagnosis/prediction/nuisance.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
+namespace {
+
+constexpr std::array kClockNuisances{&kStampNuisance, &kGyroStampNuisance, &kBatteryStampNuisance,
+                                     &kBatteryMeanNuisance};
+
+}  // namespace
 
 double usual_held_moment_Nm(const Robot& robot) {
   return kUsualHeldMoment * robot_measures::resisting_moment_Nm(robot);
 }
 
+bool is_of_clocks(const Nuisance& nuisance) {
+  return std::ranges::any_of(kClockNuisances, [&](const std::string* key) { return *key == nuisance.key; });
+}
+
 bool is_factor(const Nuisance& nuisance) {
-  return nuisance.key != kCreepNuisance && nuisance.key != kStampNuisance &&
-         nuisance.key != kHeldTurnNuisance;
+  return nuisance.key != kCreepNuisance && nuisance.key != kHeldTurnNuisance && !is_of_clocks(nuisance);
 }
 
 std::string text_of(const Nuisance& nuisance) {
@@ -20,7 +32,7 @@ std::string text_of(const Nuisance& nuisance) {
 std::vector<Nuisance> calibration_nuisances(const Robot& robot) {
   std::vector<Nuisance> nuisances = nuisances_of(robot);
   nuisances.push_back({kCreepNuisance, std::nullopt, 1.0});
-  nuisances.push_back({kStampNuisance, std::nullopt, 1.0});
+  for (const std::string* key : kClockNuisances) nuisances.push_back({*key, std::nullopt, 1.0});
   for (Side side : kSides) nuisances.push_back({kHeldTurnNuisance, side, 1.0});
   return nuisances;
 }

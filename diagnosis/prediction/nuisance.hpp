@@ -11,6 +11,11 @@ namespace joulepath {
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
 inline const std::string kHeldTurnNuisance = "held_turn";
+/// An instrument of its own is late or early by a part of its readings' period; the battery's readings are
+/// also means of another length than the motors'.
+inline const std::string kGyroStampNuisance = "gyro_time_stamps";
+inline const std::string kBatteryStampNuisance = "battery_time_stamps";
+inline const std::string kBatteryMeanNuisance = "battery_mean";
 
 /// 1-sigma of the creep compliance of a robot's tires, m/s per N.
 inline double usual_creep_m_s_N(const Robot& robot) {
@@ -20,13 +25,17 @@ inline double usual_creep_m_s_N(const Robot& robot) {
 /// 1-sigma of the moment that the contacts hold after a turn, N m.
 double usual_held_moment_Nm(const Robot& robot);
 
+/// True for errors of instruments' clocks: columns of the linear problem only, too small to read the signals
+/// again.
+bool is_of_clocks(const Nuisance& nuisance);
+
 /// True for a constant with a relative error. Creep, time stamps and a held moment are errors about 0.
 bool is_factor(const Nuisance& nuisance);
 
 /// A calibration constant in words: "wheel_radius_m" or "friction_torque_Nm (left)".
 std::string text_of(const Nuisance& nuisance);
 
-/// Nuisances: the `uncertainty:` of the robot file, tire creep, time stamps and the moment held after a turn.
+/// Nuisances: the `uncertainty:` of the robot file, tire creep, errors of clocks and the moment held after a turn.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 
 }  // namespace joulepath

@@ -246,6 +246,26 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   }
 }
 
+/// Median time between the readings of a channel: a value that is neither that before it nor on the line
+/// through the two before it is a new reading.
+double reading_period_s(const Samples& channel, double log_period_s) {
+  std::vector<std::size_t> steps;
+  std::size_t last = 0;
+  const auto on_line = [&](std::size_t i) {
+    const double step = channel[i] - channel[i - 1], before = channel[i - 1] - channel[i - 2];
+    return std::abs(step - before) <= 1e-6 * (std::abs(step) + std::abs(before));
+  };
+  for (std::size_t i = 2; i < channel.size(); ++i) {
+    if (channel[i] == channel[i - 1] || on_line(i)) continue;
+    if (last > 0) steps.push_back(i - last);
+    last = i;
+  }
+  if (steps.empty()) return log_period_s;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return static_cast<double>(*middle) * log_period_s;
+}
+
 /// Below this current the dead band of a driver hides the winding: less than the friction current.
 double dead_band_A(const Motor& motor) {
   return std::min(kDeadBand_A, 0.5 * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A());
@@ -379,6 +399,8 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
                      .period_s = thinner.period_s(),
                      .log_period_s = thinner.grid_period_s(),
                      .kernel_sigma_s = thinner.sigma_s()};
+  signals.reading_period_s = {.battery_s = reading_period_s(log.battery_current_A, signals.log_period_s),
+                              .gyro_s = reading_period_s(log.gyro_yaw_rate_rad_s, signals.log_period_s)};
 
   const Sided<Samples> logged_wheels = wheel_speeds(log, robot);
   const Sided<Samples> wheels{thinner.on_grid(logged_wheels.left), thinner.on_grid(logged_wheels.right)};

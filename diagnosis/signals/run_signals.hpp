@@ -32,6 +32,12 @@ struct SupplyAccount {
   [[nodiscard]] Sided<double> mean_W(Eigen::Index j) const { return {motor_W.left[j], motor_W.right[j]}; }
 };
 
+/// Between the readings of instruments other than the motors' driver. A log repeats or interpolates the
+/// readings of a slow one.
+struct ReadingPeriods {
+  double battery_s{}, gyro_s{};
+};
+
 /// One run, smoothed and downsampled for the diagnosis.
 ///
 /// Every measured channel is convolved with the same Gaussian kernel before downsampling; a wheel's
@@ -45,6 +51,7 @@ struct RunSignals {
   double period_s{};        ///< period of these samples, not of the log
   double log_period_s{};    ///< of the log
   double kernel_sigma_s{};  ///< of the smoothing
+  ReadingPeriods reading_period_s{};
   Eigen::VectorXd time_s{};
   Eigen::VectorXd time_of_day_s{};
   Eigen::VectorXd payload_kg{};
