@@ -165,8 +165,8 @@ class Differencer {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(channel.size());
     for (Eigen::Index j = 0; j < channel.size(); ++j)
       for (Eigen::Index k = 0; k < std::ssize(kSlopeWeight); ++k)
-        result[j] += kSlopeWeight[static_cast<std::size_t>(k)] / signals_.period_s *
-                     (at(j + k + 1) - at(j - k - 1));
+        result[j] +=
+            kSlopeWeight[static_cast<std::size_t>(k)] / signals_.period_s * (at(j + k + 1) - at(j - k - 1));
     return result;
   }
 

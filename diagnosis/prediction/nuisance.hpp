@@ -35,7 +35,8 @@ bool is_factor(const Nuisance& nuisance);
 /// A calibration constant in words: "wheel_radius_m" or "friction_torque_Nm (left)".
 std::string text_of(const Nuisance& nuisance);
 
-/// Nuisances: the `uncertainty:` of the robot file, tire creep, errors of clocks and the moment held after a turn.
+/// Nuisances: the `uncertainty:` of the robot file, tire creep, errors of clocks and the moment held after a
+/// turn.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 
 }  // namespace joulepath
