@@ -212,7 +212,7 @@ bool outline_drives(const RouteSpace& space, const RouteRequest& request,
 
 std::vector<Point2> outline_route(const RouteSpace& space, const FreeSpace& floor,
                                   const RouteRequest& request) {
-  const std::vector<Point2> corners = OutlineSearch(space, floor, request).corners();
+  std::vector<Point2> corners = OutlineSearch(space, floor, request).corners();
   if (corners.size() < 3) return corners;
   const FootprintChecker& checker = space.checker();
   const LineFree free = [&checker](const Point2& a, const Point2& b) {
