@@ -87,6 +87,7 @@ std::string module_scripts(std::span<const Module> modules, const std::string& t
 }
 
 std::span<const Module> shared_modules() { return kPageModules; }
+
 std::string day() {
   const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
   const long long stated = fixed ? std::atoll(fixed) : 0;

@@ -25,7 +25,7 @@ import judge
 import joulepath as jp
 from joulepath import fleet
 from joulepath.fleet._problem import Problem
-from joulepath.fleet._routes import dispatched
+from joulepath.fleet._routes import Routing
 from joulepath.fleet._search import first_schedule, search
 from joulepath.fleet._simulate import simulate
 from joulepath.fleet._solve import solve
@@ -129,7 +129,7 @@ def large(seeds: Iterable[int], limit: float) -> list[str]:
              "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|"]
     for seed in seeds:
         problem, begin = generator.large(seed), time.process_time()
-        field, found = dispatched(problem), search(problem, workers=1, limit=limit)[1]
+        field, found = Routing(problem).dispatch(), search(problem, workers=1, limit=limit)[1]
         if found is None:
             lines.append(f"| {seed} | none | | | | | | | | |")
             continue

@@ -14,6 +14,7 @@ void bind_robot(nb::module_& module);
 void bind_plan(nb::module_& module);
 void bind_online(nb::module_& module);
 void bind_fleet(nb::module_& module);
+void bind_routing(nb::module_& module);
 void bind_program(nb::module_& module);
 void bind_simulation(nb::module_& module);
 void bind_diagnosis(nb::module_& module);

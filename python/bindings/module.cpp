@@ -13,6 +13,7 @@ NB_MODULE(_core, module) {
   bind_plan(module);
   bind_online(module);
   bind_fleet(module);
+  bind_routing(module);
   bind_program(module);
   bind_simulation(module);
   bind_diagnosis(module);

@@ -241,7 +241,7 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
         solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
     result = Profile.__new__(Profile)  # before the solver fills the caches with its own data
     result._value, driven = _core.profile(robot._value, xy._value, payload_kg, time_s,
-                                            caps("speed_caps", speed_caps), solver, nodes, accuracy)
+                                          caps("speed_caps", speed_caps), solver, nodes, accuracy)
     if not driven:
         raise _failure(result, along_path=True)
     return result

@@ -23,10 +23,9 @@ from joulepath.fleet._bound import Limits, bound  # noqa: E402
 from joulepath.fleet._solve import solve  # noqa: E402
 from joulepath.fleet._floor import Floor, moves_of  # noqa: E402
 from joulepath.fleet._hidden import energy_factor  # noqa: E402
-from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E402
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
 from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
-from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
+from joulepath.fleet._routes import Routing  # noqa: E402
 from joulepath.fleet._search import first_schedule, improve, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
 
@@ -145,28 +144,6 @@ def test_routes_at_prices_bound_waiting_and_use_that_the_assignment_leaves_out()
     assert cost - 1_100 <= relaxed_bound(late, cost, 60) <= cost
 
 
-def test_the_extra_cost_of_an_insertion_is_that_of_the_longer_order():
-    """Where no place is skipped and no charge is needed: the estimate ends early only where the rest of an order stays as it was."""
-    problem = generator.tight(4, robots=1, missions=8, chargers=1)
-    problem = dataclasses.replace(problem, types=tuple(dataclasses.replace(x, capacity=10**7) for x in problem.types),
-                                  robots=tuple(dataclasses.replace(x, level=10**7) for x in problem.robots))
-    estimate, chance = Estimate(problem), random.Random(1)
-    for _ in range(20):
-        m, *order = chance.sample(range(8), 8)
-        longer = [estimate.cost(0, [*order[:n], m, *order[n:]]) - estimate.cost(0, order) for n in range(8)]
-        extra, position = estimate.insertion(0, order, estimate.states(0, order), m)
-        assert extra == pytest.approx(min(longer)) and longer[position] == pytest.approx(min(longer))
-
-
-@pytest.mark.parametrize("chargers", [0, 2])
-def test_a_neighborhood_has_each_mission_once(chargers):
-    problem = generator.large(1, robots=5, missions=30, chargers=chargers)
-    neighborhood, orders = Neighborhood(problem, random.Random(3)), inserted(problem)
-    for _ in range(30):
-        orders = neighborhood.of(orders)
-        assert sorted(m for order in orders for m in order) == list(range(30))
-
-
 @pytest.mark.parametrize(("robots", "need"), [(1, 20_000), (2, 30_000), (3, 50_000)])
 def test_equal_robots_at_one_charger_are_the_closed_form_of_a_queue(robots, need):
     assert least(generator.queue(robots, need)) == generator.queue_cost(robots, need)
@@ -216,7 +193,8 @@ def test_the_same_seed_gives_the_same_schedule():
 @pytest.mark.parametrize("seed", range(20, 26))
 def test_schedules_without_a_solver_keep_every_rule(seed):
     problem = generator.small(seed)
-    for found in (dispatched(problem), drive_orders(problem, inserted(problem))):
+    routing = Routing(problem)
+    for found in (routing.dispatch(), routing.drive(routing.inserted())):
         if found is not None:
             assert judge.faults(problem, found) == []
             assert bound(problem) <= found.cost
@@ -224,7 +202,7 @@ def test_schedules_without_a_solver_keep_every_rule(seed):
 
 def test_neighborhoods_never_make_a_schedule_dearer_or_break_a_rule():
     problem = generator.small(31, robots=4, missions=12)
-    start = next(s for s in (drive_orders(problem, inserted(problem)), dispatched(problem)) if s is not None)
+    start = first_schedule(problem)
     found = improve(problem, start, seed=1, workers=1, limit=4.0, tell=lambda _: None, stop=lambda: False)
     assert found.cost <= start.cost and judge.faults(problem, found) == []
     assert improve(problem, start, seed=1, workers=1, limit=4.0, tell=lambda _: None, stop=lambda: True) == start
@@ -373,6 +351,6 @@ def test_a_late_mission_says_how_its_robot_spent_the_time(tmp_path):
 
 def test_a_schedule_that_is_not_proven_states_its_own_cost():
     problem = generator.small(0)
-    start = next(s for s in (drive_orders(problem, inserted(problem)), dispatched(problem)) if s is not None)
+    start = first_schedule(problem)
     _, found = solve(problem, workers=1, limit=0.5, start=start)
     assert found is None or (judge.faults(problem, found) == [] and found.bound <= found.cost)

@@ -127,10 +127,8 @@ void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, C
         if (!inside && cells == Cells::rim && !field.beside_floor(cell)) continue;
         const double du = column + 0.5 - u, dv = row + 0.5 - v;
         if (du * du + dv * dv > reach * reach) continue;
-        const double u_m = (column + 0.5) * grid.resolution_m, v_m = (row + 0.5) * grid.resolution_m;
-        visit(BlockedCell{grid.origin.x_m + field.cosine * u_m - field.sine * v_m,
-                          grid.origin.y_m + field.sine * u_m + field.cosine * v_m, 0.5 * grid.resolution_m,
-                          grid.origin.heading_rad,
+        const auto [x, y] = grid.center_of(cell, field.cosine, field.sine);
+        visit(BlockedCell{x, y, 0.5 * grid.resolution_m, grid.origin.heading_rad,
                           inside ? field.layer_at(grid.index_of(cell)) : Layer::edge});
       }
   }

@@ -53,9 +53,12 @@ struct OccupancyGrid {
   }
   /// Center of a cell in the map frame.
   [[nodiscard]] std::array<double, 2> center_of(CellIndex cell) const {
-    const double c = std::cos(origin.heading_rad), s = std::sin(origin.heading_rad);
+    return center_of(cell, std::cos(origin.heading_rad), std::sin(origin.heading_rad));
+  }
+  /// With the cosine and sine of the grid's heading, for callers that ask for many cells.
+  [[nodiscard]] std::array<double, 2> center_of(CellIndex cell, double cosine, double sine) const {
     const double u_m = (cell.column + 0.5) * resolution_m, v_m = (cell.row + 0.5) * resolution_m;
-    return {origin.x_m + c * u_m - s * v_m, origin.y_m + s * u_m + c * v_m};
+    return {origin.x_m + cosine * u_m - sine * v_m, origin.y_m + sine * u_m + cosine * v_m};
   }
 };
 

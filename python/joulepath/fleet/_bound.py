@@ -3,6 +3,7 @@ schedule's cost it tells what no cheaper one contains."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -18,8 +19,34 @@ FAR = 10**15  #: a price that no schedule has
 def bound(problem: Problem) -> int:
     """Each mission follows one robot's start or one other mission, and each of these has one successor: the cheapest
     assignment of ways, with missions at their cheapest speeds, standby of the time that both take, unavoidable lateness, and
-    standby of the time that chargers need for the energy that the batteries lack."""
-    return _cheapest(problem, _prices(problem, drive_cost, use=True)) + _beside_ways(problem)
+    standby of the time that chargers need for the energy that the batteries lack: all batteries together, or those of the robots
+    that drive. The higher of the two."""
+    return max(_cheapest(problem, _prices(problem, drive_cost, _uses(problem))) + _beside_ways(problem), _charged(problem))
+
+
+def _charged(problem: Problem) -> int:
+    """Each drive pays the standby of the time in which a charger gives its energy, and a robot that drives has paid for what its
+    battery holds: what a robot uses beyond that it buys, and standby is drawn meanwhile."""
+    rates = {kind: kind.standby / power if (power := _power(problem, kind)) > 0 else 0.0 for kind in problem.types}
+
+    def price(d: Drive, kind: RobotType) -> int:
+        return drive_cost(d, kind) + int(rates[kind] * _need(d, kind))
+
+    starts = [r.use_price - math.ceil(rates[problem.kind(k)] * (r.level - problem.kind(k).reserve)) for k, r in enumerate(problem.robots)]
+    return _cheapest(problem, _prices(problem, price, starts)) + _driving(problem, price) + _late(problem)
+
+
+def _power(problem: Problem, kind: RobotType) -> int:
+    """That a charger gives beyond a robot's standby."""
+    return max((c.power - kind.standby for c in problem.chargers), default=0)
+
+
+def _uses(problem: Problem) -> list[int]:
+    return [r.use_price for r in problem.robots]
+
+
+def _late(problem: Problem) -> int:
+    return sum(late_cost(problem, m) for m in range(len(problem.missions)))
 
 
 def drive_cost(d: Drive, kind: RobotType) -> int:
@@ -32,22 +59,22 @@ def _need(d: Drive, kind: RobotType) -> int:
 
 def _beside_ways(problem: Problem) -> int:
     """Missions, charging and lateness."""
-    need = _cheapest(problem, _prices(problem, _need, use=False)) + _driving(problem, _need)
+    need = _cheapest(problem, _prices(problem, _need, [0] * len(problem.robots))) + _driving(problem, _need)
     held = sum(r.level - problem.kind(k).reserve for k, r in enumerate(problem.robots))
     least = min(kind.standby for kind in problem.types)
-    power = max((c.power - least for c in problem.chargers), default=0)
+    power = max(_power(problem, kind) for kind in problem.types)
     charging = least * max(0, need - held) // power if power else 0
-    return _driving(problem, drive_cost) + charging + sum(late_cost(problem, m) for m in range(len(problem.missions)))
+    return _driving(problem, drive_cost) + charging + _late(problem)
 
 
 def _driving(problem: Problem, price: Price) -> int:
     return sum(min(price(d, problem.types[t]) for t, drives in x.drives.items() for d in drives) for x in problem.missions)
 
 
-def _prices(problem: Problem, price: Price, use: bool) -> dict[Arc, int]:
-    """The least price of each way from a node to a mission."""
+def _prices(problem: Problem, price: Price, starts: list[int]) -> dict[Arc, int]:
+    """The least price of each way from a node to a mission. ``starts``: prices of robots that drive."""
     prices: dict[Arc, int] = {}
-    before: list[tuple[str, tuple[int, ...], int]] = [(r.start, (k,), r.use_price if use else 0) for k, r in enumerate(problem.robots)]
+    before: list[tuple[str, tuple[int, ...], int]] = [(r.start, (k,), starts[k]) for k, r in enumerate(problem.robots)]
     before += [(x.last, x.robots, 0) for x in problem.missions]
     for i, (place, robots, extra) in enumerate(before):
         for j, mission in enumerate(problem.missions):
@@ -101,11 +128,11 @@ class Limits:
 
     def __init__(self, problem: Problem, most: int | None) -> None:
         self.problem, self.most = problem, most
-        self.prices = _prices(problem, drive_cost, use=True)
+        self.prices = _prices(problem, drive_cost, _uses(problem))
         rest = _beside_ways(problem)
         self.low = rest + _cheapest(problem, self.prices)
         self.forced = {arc: rest + (0 if most is None else _cheapest(problem, self.prices, arc)) for arc in self.prices}
-        motion = _cheapest(problem, _prices(problem, lambda d, _: d.motion, use=True)) + _driving(problem, lambda d, _: d.motion)
+        motion = _cheapest(problem, _prices(problem, lambda d, _: d.motion, _uses(problem))) + _driving(problem, lambda d, _: d.motion)
         self.present_s = NEVER  # of all robots together
         standby = min(kind.standby for kind in problem.types)
         if most is not None and standby > 0:

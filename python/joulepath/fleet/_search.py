@@ -11,13 +11,12 @@ from ._bound import bound
 from ._solve import solve
 from ._problem import UNITS_PER_J, Problem, Schedule, Step
 from ._relaxed import relaxed_bound
-from ._orders import Neighborhood, inserted
-from ._routes import QUEUES_S, account, dispatched, drive_orders
+from ._routes import Routing, account
 
 SMALL = 16  #: missions of one constraint program
-ROUNDS = 400  #: reinsertions before it
-ROUNDS_PER_S = 30  #: reinsertions per second of the limit, which three quarters of it are for
-WARM, COLD = 3e-3, 1e-4  #: dearer schedules that the reinsertions go on from, relative, at their begin and end
+ROUNDS = 20_000  #: reinsertions before it
+MOVES_PER_S = 1_000_000  #: missions times reinsertions per second of the limit, which three quarters of it are for
+CHUNK = 500  #: reinsertions between looks at ``stop``
 BOUND_ROUNDS, BOUND_ROUNDS_PER_S = 60, 1 / 3  #: of the relaxation: for few missions, and per second of the limit for many
 REPAIR = 0.5  #: deterministic time of one repair
 Tell = Callable[[str], None]
@@ -26,7 +25,8 @@ Stop = Callable[[], bool]
 
 def first_schedule(problem: Problem) -> Schedule | None:
     """The cheaper one of a greedy insertion and a dispatcher; None where both run out of energy or time."""
-    found = [schedule for schedule in (drive_orders(problem, inserted(problem)), dispatched(problem)) if schedule is not None]
+    routing = Routing(problem)
+    found = [schedule for schedule in (routing.drive(routing.inserted()), routing.dispatch()) if schedule is not None]
     return min(found, key=lambda schedule: schedule.cost, default=None)
 
 
@@ -37,7 +37,7 @@ def search(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 
     start = first_schedule(problem)
     if len(problem.missions) <= SMALL or start is None:
         if start is not None:
-            start = rearranged(problem, start, random.Random(seed), ROUNDS, ended)
+            start = rearranged(problem, start, seed, ROUNDS, ended)
         status, best = solve(problem, seed=seed, workers=workers, limit=limit, start=start, stop=ended,
                              tell=lambda cost, low: say(_line(cost, low)))
         if best is None and start is not None:
@@ -69,7 +69,7 @@ def improve(problem: Problem, start: Schedule, *, seed: int, workers: int, limit
         tell(_line(schedule.cost, low))
 
     news(start)
-    best = rearranged(problem, start, chance, round(0.75 * ROUNDS_PER_S * limit), stop, news)
+    best = rearranged(problem, start, seed, round(0.75 * limit * MOVES_PER_S / len(problem.missions)), stop, news)
     for _ in range(round(limit / 4 / REPAIR)):
         if stop():
             return best
@@ -80,24 +80,17 @@ def improve(problem: Problem, start: Schedule, *, seed: int, workers: int, limit
     return best
 
 
-def rearranged(problem: Problem, start: Schedule, chance: random.Random, rounds: int, stop: Stop,
+def rearranged(problem: Problem, start: Schedule, seed: int, rounds: int, stop: Stop,
                news: Callable[[Schedule], None] = lambda _: None) -> Schedule:
-    """The best schedule of a simulated annealing over orders of missions."""
-    neighborhood, to_dock = Neighborhood(problem, chance), {}  # type: tuple[Neighborhood, dict[tuple[int, str], int]]
-    orders, here, best, wait_s = [[step.mission for step in route] for route in start.routes], start.cost, start, QUEUES_S[1]
-    for n in range(rounds):
+    """The best schedule of a simulated annealing over orders of missions (extensions/fleet/order_search.hpp)."""
+    routing, best = Routing(problem), start
+    annealing = routing.search(start, seed % 2**64, rounds)
+    for _ in range(0, rounds, CHUNK):
         if stop():
             break
-        tried = neighborhood.of(orders)
-        if n % 20 == 0:
-            wait_s = chance.choice(QUEUES_S)
-        found = drive_orders(problem, tried, (wait_s,), to_dock)
-        warmth = WARM * (COLD / WARM) ** (n / rounds) * best.cost
-        if found is None or found.cost >= here - warmth * math.log(1.0 - chance.random()):
-            continue
-        orders, here = tried, found.cost
-        if found.cost < best.cost:
-            best = found
+        better = routing.schedule(annealing.advance(CHUNK))
+        if better is not None:
+            best = better
             news(best)
     return best
 
