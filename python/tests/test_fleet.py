@@ -134,6 +134,21 @@ def test_routes_at_prices_bound_every_schedule_at_any_number_of_rounds(made, see
         assert all(relaxed_bound(problem, found.cost + more, rounds) <= found.cost for rounds in (1, 7, 40) for more in (0, 50_000))
 
 
+def test_what_a_robot_lacks_is_charged_though_another_one_holds_it():
+    """28,000 for the mission and the direct way; what the robot lacks for them, 47,000, is charged in 47 s of standby."""
+    problem = generator.queue(2, 50_000)
+    full = dataclasses.replace(problem.robots[1], level=10**6)
+    problem = dataclasses.replace(problem, robots=(problem.robots[0], full), missions=problem.missions[:1])
+    assert bound(problem) == 32_700 and least(problem) == 36_000
+
+
+@pytest.mark.parametrize(("made", "seed", "size"), RELAXED)
+def test_an_assignment_of_ways_bounds_every_schedule(made, seed, size):
+    problem = made(seed, **size)
+    found = solve(problem, workers=1)[1]
+    assert found is None or bound(problem) <= found.cost
+
+
 def test_routes_at_prices_bound_waiting_and_use_that_the_assignment_leaves_out():
     """One robot, one mission that is ready late: the bound is the cost, but for rounding to steps of time."""
     problem = dataclasses.replace(generator.queue(1, 0), chargers=())

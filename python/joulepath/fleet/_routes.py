@@ -61,7 +61,7 @@ class Routing:
 
     def inserted(self) -> list[list[int]]:
         """Orders of missions by insertion where they cost least, from the one that is due first on."""
-        return self.value.inserted()  # type: ignore[no-any-return]
+        return self.value.inserted()
 
     def search(self, start: Schedule, seed: int, rounds: int) -> _core.OrderSearch:
         """Simulated annealing over orders from those of a schedule."""
