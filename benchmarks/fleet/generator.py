@@ -79,9 +79,11 @@ def _three_speeds(chance: random.Random, places: dict[str, tuple[float, float]],
     return ways
 
 
-def _speed(drives: tuple[Drive, ...], k: int) -> Drive:
-    """The k-th speed of a way, or its quickest where a short way has fewer."""
-    return drives[min(k, len(drives) - 1)]
+def _at_speed(legs: list[tuple[float, tuple[Drive, ...]]], k: int, dwell_s: int) -> Drive:
+    """Loaded legs at their k-th speeds, or their quickest where a short way has fewer."""
+    drives = [(load, leg[min(k, len(leg) - 1)]) for load, leg in legs]
+    return Drive(dwell_s + sum(d.duration_s for _, d in drives), round(sum(load * d.motion for load, d in drives)),
+                 math.ceil(sum(load * d.upper for load, d in drives)), k)
 
 
 def _delivery(chance: random.Random, index: int, ways: dict[tuple[int, str, str], tuple[Drive, ...]], fleet: list[Robot],
@@ -93,8 +95,7 @@ def _delivery(chance: random.Random, index: int, ways: dict[tuple[int, str, str]
     drives = {}
     for t in {fleet[r].type for r in allowed}:
         legs = [(load, ways[t, a, b]) for load, a, b in zip(loads, stops, stops[1:])]
-        drives[t] = undominated([Drive(dwell_s + sum(_speed(leg, k).duration_s for _, leg in legs), round(sum(x * _speed(leg, k).motion for x, leg in legs)),
-                                       math.ceil(sum(x * _speed(leg, k).upper for x, leg in legs)), k) for k in range(3)])
+        drives[t] = undominated([_at_speed(legs, k, dwell_s) for k in range(3)])
     ready_s = chance.choice((0, chance.randint(0, span_s)))
     own_s = max(d[0].duration_s for d in drives.values())
     return Mission(f"m{index}", stops[0], stops[-1], drives, tuple(allowed), ready_s, ready_s + own_s + chance.randint(20, 240),

@@ -42,6 +42,8 @@ def faults(problem: Problem, schedule: Schedule) -> list[str]:
                     wrong.append(f"{robot.name} cannot charge from {level} to {step.visit.target} in {seconds} s")
                 visits.append((step.visit.charger, step.visit.from_s, step.visit.to_s))
                 place, clock, level = charger.place, step.visit.to_s, max(level, step.visit.target)
+                if step.way:
+                    wrong.append(f"{robot.name} leaves its charger before {mission.name} at speed {step.way}, not the cheapest")
             way = problem.ways[robot.type, place, mission.first][step.way]
             drive = mission.drives[robot.type][step.speed]
             if step.start_s < max(clock + way.duration_s, mission.ready_s):

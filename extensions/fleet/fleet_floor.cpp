@@ -11,6 +11,9 @@
 namespace joulepath {
 namespace {
 
+/// A charger gives more than a robot's standby also when both are rounded to tenths of a watt.
+constexpr double kLeastSpare_W = 0.2;
+
 std::string figure_text(double value) {
   std::ostringstream text;
   text << value;
@@ -107,10 +110,10 @@ class Checks {
     check_standing(r, {&charger.station, &charger.marks, "station"});
     const double standby_W = robot_of(r).power.standby_W;
     for (const auto& [key, power_W] : {std::pair{"power_W", charger.power_W}, {"taper_W", charger.taper_W}})
-      if (power_W <= standby_W)
-        refuse(
-            charger.marks, key, figure_text(power_W),
-            "more than the standby of robot " + fleet_.robots[r].name + ", " + figure_text(standby_W) + " W");
+      if (power_W < standby_W + kLeastSpare_W)
+        refuse(charger.marks, key, figure_text(power_W),
+               "at least " + figure_text(kLeastSpare_W) + " W more than the standby of robot " +
+                   fleet_.robots[r].name + ", " + figure_text(standby_W) + " W");
   }
 
   /// Some robot must be able to drive it; else the reason is that of the last robot that is allowed.

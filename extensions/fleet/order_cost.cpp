@@ -6,10 +6,9 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSkipped = 0.01;  ///< chance that a place of an order is not tried [Christiaens2020]
-constexpr double kLatest = 10000;  ///< price of a second after the end of a robot's shift
-constexpr double kNever_s = 1e7;   ///< takes a charge without a charger
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kBlinkRate = 0.01;  ///< chance that a place of an order is not tried [Christiaens2020]
+constexpr double kAfterShiftPrice = 10000;  ///< per second
+constexpr double kNever_s = 1e7;            ///< takes a charge without a charger
 
 double as_double(std::int64_t value) { return static_cast<double>(value); }
 
@@ -48,7 +47,7 @@ void OrderCost::advance(int robot, int m, State& at) const {
     }
     at.paid += as_double(mission.late_price) * std::max(0.0, end_s - due_s);
   }
-  at.paid += kLatest * std::max(0.0, end_s - as_double(by.to_s));
+  at.paid += kAfterShiftPrice * std::max(0.0, end_s - as_double(by.to_s));
   at.place = mission.last;
   at.clock_s = end_s;
 }
@@ -81,7 +80,7 @@ OrderCost::Insertion OrderCost::insertion(int robot, std::span<const int> order,
   };
   Insertion best{below, 0};
   for (std::size_t n = order.size() + 1; n-- > 0;) {
-    if (chance != nullptr && chance->uniform() < kSkipped) continue;
+    if (chance != nullptr && chance->uniform() < kBlinkRate) continue;
     const int place = states[n].place;
     double own = as_double(problem_.drives(m, type).front().motion) + motion(place, mission.first);
     if (n < order.size()) {
@@ -103,7 +102,7 @@ double OrderCost::extra(int robot, std::span<const int> order, const std::vector
   for (std::size_t n = position; n < order.size(); ++n) {
     advance(robot, order[n], at);
     const State& before = states[n + 1];
-    if (at.paid - before.paid >= below) return kNone;
+    if (at.paid - before.paid >= below) return kNoLimit;
     if (at.clock_s == before.clock_s)
       return at.paid - before.paid + charging(robot, states.back().used + at.used - before.used);
   }

@@ -1,26 +1,28 @@
 #pragma once
 
-#include <limits>
 #include <span>
+#include <vector>
 
 #include "extensions/fleet/random.hpp"
 #include "extensions/fleet/routing_problem.hpp"
+#include "model/limits.hpp"
 
 namespace joulepath {
 
-/// The cost of orders of missions at the cheapest speeds, or the quickest where a mission would be late. What
-/// a battery lacks is charged at once, at the power of the fastest charger. The problem outlives it.
+/// An estimate of what orders of missions cost, in tenths of a joule. Ways have their cheapest speed,
+/// missions too, or their quickest where they would be late. What a battery lacks is charged at once, at the
+/// power of the fastest charger. The problem outlives it.
 class OrderCost {
  public:
   /// Of a robot after a mission of an order.
   struct State {
     int place{};
     double clock_s{};
-    double used{};  ///< of what the battery holds above the reserve
-    double paid{};  ///< motion and lateness
+    double used{};  ///< of what the battery holds above the reserve, in tenths of a joule
+    double paid{};  ///< motion and lateness, in tenths of a joule
   };
   struct Insertion {
-    double extra{std::numeric_limits<double>::infinity()};
+    double extra{kNoLimit};
     std::size_t position{};
   };
 

@@ -9,12 +9,14 @@
 namespace joulepath {
 namespace {
 
-constexpr double kRemoved = 10;               ///< missions of one removal, on average
-constexpr double kLongest = 10;               ///< of the strings
-constexpr double kFarPerS = 0.1;              ///< of two missions, for each second between their ready times
-constexpr double kWarm = 3e-3, kCold = 1e-4;  ///< dearer orders that are kept, relative, at the begin and end
-constexpr std::size_t kSameWait = 20;         ///< rounds
-constexpr double kEmpty = std::numeric_limits<double>::infinity();
+constexpr double kRemoved = 10;   ///< missions of one removal, on average
+constexpr double kLongest = 10;   ///< of the strings
+constexpr double kFarPerS = 0.1;  ///< of two missions, for each second between their ready times
+/// Shares of a mission's mean cost: about so much dearer orders are kept at the begin and at the end.
+constexpr double kFirstTemperature = 0.6, kLastTemperature = 0.02;
+constexpr double kRobotsFree =
+    0.1;  ///< chance that the use of robots costs nothing while missions are inserted
+constexpr std::size_t kSameWait = 20;  ///< rounds
 
 using States = std::vector<std::vector<OrderCost::State>>;
 
@@ -25,9 +27,15 @@ States states_of(const OrderCost& cost, const Orders& orders) {
   return states;
 }
 
+/// How missions are inserted.
+struct Insertion {
+  Random* chance{};    ///< skips places now and then
+  bool robots_free{};  ///< the use of a robot without missions costs nothing: two missions may be worth it
+};
+
 /// Inserts a mission where it costs least; of equal robots without missions one is tried.
 void insert(const RoutingProblem& problem, const OrderCost& cost, Orders& orders, States& states, int m,
-            Random* chance) {
+            const Insertion& how) {
   const std::vector<int>& robots = problem.mission(m).robots;
   OrderCost::Insertion best;
   int robot = robots.front();
@@ -35,7 +43,10 @@ void insert(const RoutingProblem& problem, const OrderCost& cost, Orders& orders
   for (const int r : robots) {
     const auto index = static_cast<std::size_t>(r);
     if (orders[index].empty() && !empty.insert(problem.robot(r).likeness).second) continue;
-    const auto found = cost.insertion(r, orders[index], states[index], m, best.extra, chance);
+    const double free =
+        how.robots_free && orders[index].empty() ? static_cast<double>(problem.robot(r).use_price) : 0.0;
+    auto found = cost.insertion(r, orders[index], states[index], m, best.extra + free, how.chance);
+    found.extra -= free;
     if (found.extra >= best.extra) continue;
     best = found;
     robot = r;
@@ -52,11 +63,11 @@ double far_s(const RoutingProblem& problem, int a, int b) {
   const auto type = static_cast<int>(
       std::find_if(one.drives.begin(), one.drives.end(), [](const auto& d) { return !d.empty(); }) -
       one.drives.begin());
-  double way_s = kEmpty;
+  double way_s = kNoLimit;
   for (const auto* way :
        {&problem.way(type, one.last, other.first), &problem.way(type, other.last, one.first)})
     if (!way->empty()) way_s = std::min(way_s, static_cast<double>(way->front().duration_s));
-  return (way_s < kEmpty ? way_s : 0.0) +
+  return (way_s < kNoLimit ? way_s : 0.0) +
          kFarPerS * std::abs(static_cast<double>(one.ready_s - other.ready_s));
 }
 
@@ -70,7 +81,7 @@ Orders inserted_orders(const RoutingProblem& problem) {
   std::iota(missions.begin(), missions.end(), 0);
   std::stable_sort(missions.begin(), missions.end(),
                    [&](int a, int b) { return problem.mission(a).due_s < problem.mission(b).due_s; });
-  for (const int m : missions) insert(problem, cost, orders, states, m, nullptr);
+  for (const int m : missions) insert(problem, cost, orders, states, m, {});
   return orders;
 }
 
@@ -90,7 +101,8 @@ Orders OrderNeighborhood::of(const Orders& orders, Random& chance) const {
   std::vector<int> taken = take_out(left, chance);
   States states = states_of(cost_, left);
   sort(taken, chance);
-  for (const int m : taken) insert(problem_, cost_, left, states, m, &chance);
+  const Insertion how{&chance, chance.uniform() < kRobotsFree};
+  for (const int m : taken) insert(problem_, cost_, left, states, m, how);
   return left;
 }
 
@@ -114,8 +126,8 @@ std::vector<int> OrderNeighborhood::take_out(Orders& orders, Random& chance) con
     touched[r] = true;
     std::vector<int>& order = orders[r];
     const auto size = static_cast<std::ptrdiff_t>(order.size());
-    const auto length =
-        static_cast<std::ptrdiff_t>(chance.uniform(1, 1 + std::min(longest, static_cast<double>(size))));
+    const double drawn = chance.uniform(1, 1 + std::min(longest, static_cast<double>(size)));
+    const std::ptrdiff_t length = std::min(size, static_cast<std::ptrdiff_t>(drawn));
     const std::ptrdiff_t at = std::find(order.begin(), order.end(), m) - order.begin();
     const std::ptrdiff_t least = std::max<std::ptrdiff_t>(0, at - length + 1),
                          most = std::min(at, size - length);
@@ -155,19 +167,20 @@ OrderSearch::OrderSearch(const RoutingProblem& problem, Orders orders, std::int6
       here_(std::move(orders)),
       here_cost_(cost),
       best_cost_(cost),
-      wait_s_(kQueues_s[1]),
+      missions_(static_cast<double>(problem.missions.size())),
       rounds_(rounds) {}
 
 std::optional<DrivenRoutes> OrderSearch::advance(std::size_t rounds) {
   std::optional<DrivenRoutes> best;
   for (const std::size_t end = std::min(rounds_, round_ + rounds); round_ < end; ++round_) {
     Orders tried = neighborhood_.of(here_, chance_);
-    if (round_ % kSameWait == 0) wait_s_ = kQueues_s[chance_.below(kQueues_s.size())];
+    if (round_ % kSameWait == 0) wait_s_ = kWaits_s[chance_.below(kWaits_s.size())];
     std::optional<DrivenRoutes> found = driver_.drive(tried, wait_s_);
     const double share = static_cast<double>(round_) / static_cast<double>(rounds_),
-                 warmth = kWarm * std::pow(kCold / kWarm, share) * static_cast<double>(best_cost_),
-                 kept_below = static_cast<double>(here_cost_) - warmth * std::log(1 - chance_.uniform());
-    if (!found || static_cast<double>(found->cost) >= kept_below) continue;
+                 temperature = kFirstTemperature * std::pow(kLastTemperature / kFirstTemperature, share) *
+                               static_cast<double>(best_cost_) / missions_,
+                 threshold = static_cast<double>(here_cost_) - temperature * std::log(1 - chance_.uniform());
+    if (!found || static_cast<double>(found->cost) >= threshold) continue;
     here_ = std::move(tried);
     here_cost_ = found->cost;
     if (found->cost >= best_cost_) continue;

@@ -24,7 +24,7 @@ class OrderNeighborhood {
   std::vector<std::vector<int>> near_{};  ///< of each mission: itself, then all others, the nearest first
 };
 
-/// Simulated annealing over orders, from orders that can be driven at a known cost.
+/// Simulated annealing over orders, from orders that can be driven at a known cost. There is a mission.
 class OrderSearch {
  public:
   OrderSearch(const RoutingProblem& problem, Orders orders, std::int64_t cost, std::uint64_t seed,
@@ -39,7 +39,8 @@ class OrderSearch {
   RouteDriver driver_;
   Random chance_;
   Orders here_;
-  std::int64_t here_cost_, best_cost_, wait_s_;
+  std::int64_t here_cost_, best_cost_, wait_s_{};
+  double missions_;
   std::size_t round_{}, rounds_;
 };
 

@@ -15,7 +15,10 @@ using Drives = RoutingProblem::Drives;
 
 std::int64_t need(const Drive& way, std::int64_t standby) { return way.upper + standby * way.duration_s; }
 
-std::int64_t rounded_up(std::int64_t above, std::int64_t below) { return (above + below - 1) / below; }
+/// a / b + c / d, rounded up.
+std::int64_t rounded_up(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return a / b + c / d + (a % b * d + c % d * b + b * d - 1) / (b * d);
+}
 
 /// The cheapest speed that is not late, else the quickest.
 template <class Late>
@@ -77,10 +80,6 @@ void RouteDriver::begin() {
   taken_.assign(problem_.chargers.size(), {});
   for (const auto& busy : problem_.busy)
     taken_[static_cast<std::size_t>(busy.charger)].push_back({busy.from_s, busy.to_s});
-  for (auto& taken : taken_)
-    std::sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) {
-      return std::pair(a.from_s, a.to_s) < std::pair(b.from_s, b.to_s);
-    });
 }
 
 /// The earliest begin of a visit of so many seconds.
@@ -113,7 +112,7 @@ std::int64_t RouteDriver::charge_s(int charger, int r, std::int64_t level, std::
                      fast = at.power - type_of(r).standby, slow = at.taper - type_of(r).standby;
   const std::int64_t below = std::max<std::int64_t>(0, std::min(target, knee) - level),
                      above = std::max<std::int64_t>(0, target - std::max(level, knee));
-  return rounded_up(below * slow + above * fast, fast * slow);
+  return rounded_up(below, fast, above, slow);
 }
 
 /// Energy that a robot needs to reach its nearest charger; 0 without chargers.
@@ -153,17 +152,17 @@ std::optional<ChargerVisit> RouteDriver::charged(int r, const Charge& charge) co
   const Drive& way =
       problem_.way(problem_.robot(r).type, at.place, problem_.charger(charge.charger).place).front();
   const std::int64_t arrival_s = at.clock + way.duration_s;
-  std::int64_t begin_s = arrival_s, seconds = 0, target = 0;
+  std::int64_t begin_s = arrival_s;
   for (int tries = 0; tries < 20; ++tries) {  // a later begin needs a longer charge
     const std::int64_t level = at.level - way.upper - type.standby * (begin_s - at.clock);
     if (level < type.reserve) return {};
-    target = std::max(level, std::min(charge.target, type.capacity));
-    seconds = charge_s(charge.charger, r, level, target);
+    const std::int64_t target = std::max(level, std::min(charge.target, type.capacity));
+    const std::int64_t seconds = charge_s(charge.charger, r, level, target);
     const std::int64_t free_s = free_from(charge.charger, arrival_s, std::max<std::int64_t>(1, seconds));
-    if (free_s <= begin_s) break;
+    if (free_s <= begin_s) return ChargerVisit{charge.charger, begin_s, begin_s + seconds, target};
     begin_s = free_s;
   }
-  return ChargerVisit{charge.charger, begin_s, begin_s + seconds, target};
+  return {};
 }
 
 /// Drives a robot to a mission, by a charge first; false and nothing done where its battery refuses.
@@ -180,9 +179,10 @@ bool RouteDriver::go(int r, int m, const std::optional<Charge>& charge) {
   }
   const Drives &ways = problem_.way(robot.type, from.place, mission.first),
                &speeds = problem_.drives(m, robot.type);
-  const int way = late_choice(ways, [&](const Drive& d) {
+  const auto late_s = [&](const Drive& d) {
     return std::max(from.clock + d.duration_s, mission.ready_s) + speeds.front().duration_s - mission.due_s;
-  });
+  };
+  const int way = visit ? 0 : late_choice(ways, late_s);
   const std::int64_t start_s = std::max(from.clock + at(ways, way).duration_s, mission.ready_s);
   const int speed =
       late_choice(speeds, [&](const Drive& d) { return start_s + d.duration_s - mission.due_s; });
@@ -190,12 +190,7 @@ bool RouteDriver::go(int r, int m, const std::optional<Charge>& charge) {
   const std::int64_t level =
       from.level - at(ways, way).upper - at(speeds, speed).upper - type_of(r).standby * (end_s - from.clock);
   if (level < type_of(r).reserve || end_s > robot.to_s) return false;
-  if (visit) {
-    auto& taken = taken_[static_cast<std::size_t>(visit->charger)];
-    const auto later =
-        std::find_if(taken.begin(), taken.end(), [&](const Taken& x) { return x.from_s > visit->from_s; });
-    taken.insert(later, {visit->from_s, visit->to_s});
-  }
+  if (visit) taken_[static_cast<std::size_t>(visit->charger)].push_back({visit->from_s, visit->to_s});
   routes_[static_cast<std::size_t>(r)].push_back({m, way, speed, start_s, visit});
   here = {mission.last, end_s, level};
   return true;

@@ -9,14 +9,14 @@ namespace joulepath {
 
 struct DrivenRoutes {
   Routes routes{};
-  std::int64_t cost{};
+  std::int64_t cost{};  ///< tenths of a joule
 };
 
-/// Mean energy with standby, lateness and use of all routes.
+/// Mean energy with standby, lateness and use of all routes, in tenths of a joule.
 [[nodiscard]] std::int64_t routes_cost(const RoutingProblem& problem, const Routes& routes);
 
 /// Waits at chargers that orders are driven for.
-constexpr std::array<std::int64_t, 3> kQueues_s{0, 200, 800};
+constexpr std::array<std::int64_t, 3> kWaits_s{0, 200, 800};
 
 /// Drives robots one step at a time. Chargers serve in the order of calls. Places, ways and numbers of the
 /// problem are valid, and the problem outlives the driver.
@@ -68,7 +68,7 @@ class RouteDriver {
   struct Taken {
     std::int64_t from_s, to_s;
   };
-  std::vector<std::vector<Taken>> taken_{};  ///< of each charger, sorted
+  std::vector<std::vector<Taken>> taken_{};  ///< of each charger
 };
 
 }  // namespace joulepath

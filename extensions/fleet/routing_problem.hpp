@@ -65,7 +65,9 @@ using Orders = std::vector<std::vector<int>>;
 /// A charge on the way to a mission.
 struct ChargerVisit {
   int charger{};
-  std::int64_t from_s{}, to_s{}, target{};
+  std::int64_t from_s{}, to_s{};
+  std::int64_t target{};  ///< level at its end
+  bool operator==(const ChargerVisit&) const = default;
 };
 
 /// A mission in a robot's route: the speeds of the way to it (0 with a visit) and of its own.
@@ -73,6 +75,7 @@ struct RouteStep {
   int mission{}, way{}, speed{};
   std::int64_t start_s{};
   std::optional<ChargerVisit> visit{};
+  bool operator==(const RouteStep&) const = default;
 };
 
 using Routes = std::vector<std::vector<RouteStep>>;

@@ -1,8 +1,10 @@
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "extensions/fleet/order_search.hpp"
@@ -25,6 +27,61 @@ Problem::Drives drives_of(const DriveRows& rows) {
   return drives;
 }
 
+void expect(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("RoutingProblem: " + what);
+}
+
+bool within(Number index, std::size_t count) { return index >= 0 && index < static_cast<Number>(count); }
+
+void check_mission(const Problem& problem, const Problem::Mission& mission) {
+  expect(within(mission.first, static_cast<std::size_t>(problem.places)) &&
+             within(mission.last, static_cast<std::size_t>(problem.places)),
+         "a mission has no such place");
+  expect(!mission.robots.empty(), "a mission has no robots");
+  expect(mission.drives.size() == problem.types.size(), "a mission has not the drives of each type");
+  for (const int r : mission.robots)
+    expect(within(r, problem.robots.size()) &&
+               !mission.drives[static_cast<std::size_t>(problem.robot(r).type)].empty(),
+           "a mission has a robot without drives");
+}
+
+/// What the driver and the search take for granted. Throws std::invalid_argument.
+void check(const Problem& problem) {
+  const auto places = static_cast<std::size_t>(problem.places);
+  expect(!problem.missions.empty(), "no missions");
+  expect(problem.ways.size() == problem.types.size() * places * places,
+         "the ways are not types x places x places");
+  for (const auto& robot : problem.robots)
+    expect(within(robot.type, problem.types.size()) && within(robot.start, places),
+           "a robot has no such type or place");
+  for (const auto& charger : problem.chargers) {
+    expect(within(charger.place, places) && charger.count > 0, "a charger has no such place, or no count");
+    expect(charger.knees.size() == problem.types.size(), "a charger has not the knee of each type");
+    for (const auto& type : problem.types)
+      expect(std::min(charger.power, charger.taper) > type.standby, "a charger gives no more than a standby");
+  }
+  for (const auto& mission : problem.missions) check_mission(problem, mission);
+  for (const auto& busy : problem.busy)
+    expect(within(busy.charger, problem.chargers.size()), "a visit has no such charger");
+}
+
+/// Orders that have each mission once, by a robot that may drive it. Throws std::invalid_argument.
+const Orders& checked(const Problem& problem, const Orders& orders) {
+  expect(orders.size() == problem.robots.size(), "the orders are not those of the robots");
+  std::vector<int> driven(problem.missions.size(), 0);
+  for (std::size_t r = 0; r < orders.size(); ++r)
+    for (const int m : orders[r]) {
+      expect(within(m, driven.size()), "an order has no such mission");
+      const auto& robots = problem.mission(m).robots;
+      expect(std::find(robots.begin(), robots.end(), static_cast<int>(r)) != robots.end(),
+             "an order has a mission that its robot may not drive");
+      ++driven[static_cast<std::size_t>(m)];
+    }
+  expect(std::all_of(driven.begin(), driven.end(), [](int times) { return times == 1; }),
+         "the orders have not each mission once");
+  return orders;
+}
+
 void begin_problem(
     Problem* self, int places, const std::vector<std::tuple<Number, Number, Number>>& types,
     const std::vector<std::tuple<int, int, Number, Number, Number, Number, int>>& robots,
@@ -44,6 +101,7 @@ void begin_problem(
   }
   for (const DriveRows& rows : ways) self->ways.push_back(drives_of(rows));
   for (const auto& [charger, from_s, to_s] : busy) self->busy.push_back({charger, from_s, to_s});
+  check(*self);
 }
 
 std::optional<RouteRows> rows_of(const std::optional<DrivenRoutes>& driven) {
@@ -64,20 +122,22 @@ std::optional<RouteRows> rows_of(const std::optional<DrivenRoutes>& driven) {
 }  // namespace
 
 void bind_routing(nb::module_& module) {
-  nb::class_<Problem>(module, "RoutingProblem",
-                      "A fleet in numbers: places, types, robots and missions by index. A drive is "
-                      "(duration_s, motion, upper), a step (mission, way, speed, start_s, visit), a visit "
-                      "(charger, from_s, to_s, target).")
+  nb::class_<Problem>(
+      module, "RoutingProblem",
+      "A fleet in numbers: places, types, robots and missions by index; whole seconds and tenths of a "
+      "joule. A drive is "
+      "(duration_s, motion, upper), a step (mission, way, speed, start_s, visit), a visit "
+      "(charger, from_s, to_s, target).")
       .def("__init__", &begin_problem, nb::arg("places"), nb::arg("types"), nb::arg("robots"),
            nb::arg("chargers"), nb::arg("missions"), nb::arg("ways"), nb::arg("busy"),
            "types: (capacity, reserve, standby). robots: (type, start, level, from_s, to_s, use_price, "
            "likeness). chargers: (place, count, power, taper, knee of each type). missions: (first, last, "
            "ready_s, due_s, late_price, robots, drives of each type). ways: drives of (type, from, to), "
-           "row-major. busy: (charger, from_s, to_s).")
+           "row-major. busy: (charger, from_s, to_s). Raises ValueError where they do not fit.")
       .def(
           "drive",
           [](const Problem& self, const Orders& orders) {
-            return rows_of(RouteDriver(self).drive(orders, kQueues_s));
+            return rows_of(RouteDriver(self).drive(checked(self, orders), kWaits_s));
           },
           nb::arg("orders"),
           "The cheapest routes by several waits at chargers; None where a battery or a shift ends.")
@@ -89,9 +149,16 @@ void bind_routing(nb::module_& module) {
           nb::arg("low"), nb::arg("high"),
           "The routes of a dispatcher; None where a battery or a shift ends.")
       .def("inserted", &inserted_orders, "Orders of missions by insertion where they cost least.");
-  nb::class_<OrderSearch>(module, "OrderSearch", "Simulated annealing over orders of missions.")
-      .def(nb::init<const Problem&, Orders, Number, std::uint64_t, std::size_t>(), nb::keep_alive<1, 2>(),
-           nb::arg("problem"), nb::arg("orders"), nb::arg("cost"), nb::arg("seed"), nb::arg("rounds"))
+  nb::class_<OrderSearch>(module, "OrderSearch",
+                          "Simulated annealing over orders of missions, by one thread at a time.")
+      .def(
+          "__init__",
+          [](OrderSearch* self, const Problem& problem, const Orders& orders, Number cost, std::uint64_t seed,
+             std::size_t rounds) {
+            new (self) OrderSearch(problem, checked(problem, orders), cost, seed, rounds);
+          },
+          nb::keep_alive<1, 2>(), nb::arg("problem"), nb::arg("orders"), nb::arg("cost"), nb::arg("seed"),
+          nb::arg("rounds"))
       .def(
           "advance",
           [](OrderSearch& self, std::size_t rounds) {

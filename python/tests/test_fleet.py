@@ -23,10 +23,10 @@ from joulepath.fleet._bound import Limits, bound  # noqa: E402
 from joulepath.fleet._solve import solve  # noqa: E402
 from joulepath.fleet._floor import Floor, moves_of  # noqa: E402
 from joulepath.fleet._hidden import energy_factor  # noqa: E402
-from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
+from joulepath.fleet._problem import NEVER, Charger, Drive, Mission, Problem, Robot, RobotType  # noqa: E402
 from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import Routing  # noqa: E402
-from joulepath.fleet._search import first_schedule, improve, search  # noqa: E402
+from joulepath.fleet._search import first_schedule, improve, rearranged, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
@@ -145,8 +145,51 @@ def test_what_a_robot_lacks_is_charged_though_another_one_holds_it():
 @pytest.mark.parametrize(("made", "seed", "size"), RELAXED)
 def test_an_assignment_of_ways_bounds_every_schedule(made, seed, size):
     problem = made(seed, **size)
-    found = solve(problem, workers=1)[1]
-    assert found is None or bound(problem) <= found.cost
+    cost = least(problem)
+    assert cost is None or bound(problem) <= cost
+
+
+def test_a_way_by_a_charger_that_is_cheaper_than_the_direct_one_is_within_the_bound():
+    """The quick way from the charger costs less with standby than the cheapest one: no schedule takes it, and no bound knows it."""
+    way = {("start", "shelf"): (Drive(100, 50_000, 50_000),), ("start", "dock"): (Drive(1, 10, 10),),
+           ("dock", "shelf"): (Drive(100, 1_000, 1_000), Drive(10, 2_000, 2_000))}
+    places = ("start", "dock", "shelf")
+    ways = {(0, a, b): way.get((a, b), (Drive(0, 0, 0),) if a == b else (Drive(100, 50_000, 50_000),)) for a in places for b in places}
+    problem = Problem((RobotType(1_000_000, 100_000, 100),), (Robot("r", 0, "start", 130_000),), (Charger("dock", 1, 1_100, 1_100),),
+                      (Mission("m", "shelf", "shelf", {0: (Drive(10, 1_000, 1_000),)}, (0,), 0, 25, 1),), ways)
+    routing = Routing(problem)
+    driven = routing.drive(routing.inserted())
+    assert driven is not None and judge.faults(problem, driven) == [] and bound(problem) <= driven.cost
+    assert least(problem) <= driven.cost
+
+
+def test_a_type_without_missions_stands_where_no_way_leads():
+    problem = generator.small(3, robots=3, missions=5, chargers=0)
+    idle = Robot("idle", 1, "nowhere", 10**6)
+    problem = dataclasses.replace(problem, types=(*problem.types, problem.types[0]), robots=(*problem.robots, idle))
+    found = first_schedule(problem)
+    assert found is not None and judge.faults(problem, found) == [] and found.routes[-1] == ()
+
+
+def test_numbers_that_do_not_fit_are_refused():
+    problem = generator.small(0, **SMALL)
+    routing, missions = Routing(problem), range(len(problem.missions))
+    other = [[] for _ in problem.robots[1:]]
+    for orders in ([], [[*missions][1:], *other], [[*missions, 0], *other], [[*missions, 99], *other]):
+        with pytest.raises(ValueError, match="order"):
+            routing.drive(orders)
+    slow = dataclasses.replace(problem.chargers[0], taper=problem.types[0].standby)
+    nobody = dataclasses.replace(problem.missions[0], robots=())
+    for changes in ({"missions": ()}, {"chargers": (slow,)}, {"missions": (nobody,)}, {"busy": ((7, 0, 1),)}):
+        with pytest.raises(ValueError, match="RoutingProblem"):
+            Routing(dataclasses.replace(problem, **changes))
+
+
+def test_the_same_seed_rearranges_a_large_fleet_alike():
+    problem = generator.large(2, robots=6, missions=40)
+    start = first_schedule(problem)
+    first, second = (rearranged(problem, start, 5, 2_000, lambda: False) for _ in range(2))
+    assert first == second and first.cost < start.cost and judge.faults(problem, first) == []
 
 
 def test_routes_at_prices_bound_waiting_and_use_that_the_assignment_leaves_out():

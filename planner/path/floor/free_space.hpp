@@ -55,8 +55,8 @@ class FreeSpace {
   bool for_unclear_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;
 
   static constexpr double kNearEnds_m = 0.8;
-  static constexpr double kSpare_m = 0.005;      ///< that a line keeps beside the clearance
-  static constexpr double kLeastSpare_m = 1e-4;  ///< of lines where none keeps the former
+  static constexpr double kSpare_m = 0.005;      ///< distance that a line keeps beyond the clearance
+  static constexpr double kLeastSpare_m = 1e-4;  ///< the same where no line keeps kSpare_m
   static constexpr double kLargestCell_m = 0.05, kSmallestCell_m = 0.0125;
   static constexpr double kMostCells = 4e6;
 

@@ -19,14 +19,14 @@ FAR = 10**15  #: a price that no schedule has
 def bound(problem: Problem) -> int:
     """Each mission follows one robot's start or one other mission, and each of these has one successor: the cheapest
     assignment of ways, with missions at their cheapest speeds, standby of the time that both take, unavoidable lateness, and
-    standby of the time that chargers need for the energy that the batteries lack: all batteries together, or those of the robots
-    that drive. The higher of the two."""
-    return max(_cheapest(problem, _prices(problem, drive_cost, _uses(problem))) + _beside_ways(problem), _charged(problem))
+    standby of the time that chargers need for the energy that the batteries lack. There are two such bounds: one counts all
+    batteries together, the other one those of the robots that drive. The higher one holds."""
+    return max(_cheapest(problem, _prices(problem, drive_cost, _uses(problem))) + _beside_ways(problem), _charging_bound(problem))
 
 
-def _charged(problem: Problem) -> int:
-    """Each drive pays the standby of the time in which a charger gives its energy, and a robot that drives has paid for what its
-    battery holds: what a robot uses beyond that it buys, and standby is drawn meanwhile."""
+def _charging_bound(problem: Problem) -> int:
+    """A robot that needs more energy than its battery holds charges the difference. A unit of it costs ``standby / power`` at least,
+    its rate. The bound prices the need of each drive so, and subtracts the battery of each robot that drives."""
     rates = {kind: kind.standby / power if (power := _power(problem, kind)) > 0 else 0.0 for kind in problem.types}
 
     def price(d: Drive, kind: RobotType) -> int:
@@ -63,7 +63,7 @@ def _beside_ways(problem: Problem) -> int:
     held = sum(r.level - problem.kind(k).reserve for k, r in enumerate(problem.robots))
     least = min(kind.standby for kind in problem.types)
     power = max(_power(problem, kind) for kind in problem.types)
-    charging = least * max(0, need - held) // power if power else 0
+    charging = least * max(0, need - held) // power if power > 0 else 0
     return _driving(problem, drive_cost) + charging + _late(problem)
 
 
@@ -91,8 +91,11 @@ def _cheapest(problem: Problem, prices: dict[Arc, int], forced: Arc | None = Non
     arcs += [(i, missions + n, 0) for i in range(robots + missions) for n in range(robots) if forced is None or i != forced[0]]
     table, solver = np.array(arcs, dtype=np.int64), linear_sum_assignment.SimpleLinearSumAssignment()
     solver.add_arcs_with_cost(table[:, 0].astype(np.int32), table[:, 1].astype(np.int32), table[:, 2])
-    if solver.solve() != solver.OPTIMAL:
+    status = solver.solve()
+    if status == solver.INFEASIBLE:
         return FAR if forced else 0
+    if status != solver.OPTIMAL:  # prices are too large to add up
+        return -FAR
     return int(solver.optimal_cost())
 
 

@@ -7,7 +7,7 @@ seconds and joules. Costs are mean energies, rounded to the nearest tenth.
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 
 UNITS_PER_J = 10
 SIGMAS = 1.645  #: one-sided 95 % of a normal distribution
@@ -154,18 +154,3 @@ class Schedule:
     cost: int
     bound: int = 0
     proven: bool = False
-
-
-@dataclass(frozen=True)
-class Account:
-    """What a route costs and where its battery stands."""
-
-    cost: int
-    motion: int
-    late: int
-    end_s: int
-    lowest: int  #: lower bound of the level, reserve subtracted
-
-
-def without(problem: Problem, **changes: object) -> Problem:
-    return replace(problem, **changes)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Schedules without a solver: orders of missions driven in the order of time, and the dispatcher of the field. The core drives them
+"""Schedules without a solver: orders of missions driven in the order of time, and the dispatcher of the field. The C++ extension drives them
 (extensions/fleet/route_driver.hpp)."""
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ def route_cost(problem: Problem, r: int, route: Sequence[Step]) -> int:
 
 
 class Routing:
-    """A fleet as the core reads it: places, types, robots and missions by number."""
+    """A fleet as the C++ extension reads it: places, types, robots and missions by number."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, types = problem, range(len(problem.types))
-        names = sorted({place for _, a, b in problem.ways for place in (a, b)})
+        names = sorted({place for _, a, b in problem.ways for place in (a, b)} | {x.start for x in problem.robots})
         at, likes = {name: n for n, name in enumerate(names)}, {}  # type: dict[str, int], dict[tuple[object, ...], int]
         self.value = _core.RoutingProblem(
             len(names), [(x.capacity, x.reserve, x.standby) for x in problem.types],
@@ -64,11 +64,12 @@ class Routing:
         return self.value.inserted()
 
     def search(self, start: Schedule, seed: int, rounds: int) -> _core.OrderSearch:
-        """Simulated annealing over orders from those of a schedule."""
+        """A simulated annealing over orders, from those of a schedule. Its ``advance(rounds)`` gives what ``schedule`` reads."""
         orders = [[step.mission for step in route] for route in start.routes]
         return _core.OrderSearch(self.value, orders, start.cost, seed, rounds)
 
     def schedule(self, rows: Sequence[Sequence[Row]] | None) -> Schedule | None:
+        """Routes of the extension with their cost, recomputed."""
         if rows is None:
             return None
         routes = tuple(tuple(Step(m, way, speed, start_s, Visit(*visit) if visit else None) for m, way, speed, start_s, visit in route)

@@ -14,7 +14,7 @@ from ._relaxed import relaxed_bound
 from ._routes import Routing, account
 
 SMALL = 16  #: missions of one constraint program
-ROUNDS = 20_000  #: reinsertions before it
+ROUNDS = 20_000  #: reinsertions before that program, whatever the limit is
 MOVES_PER_S = 1_000_000  #: missions times reinsertions per second of the limit, which three quarters of it are for
 CHUNK = 500  #: reinsertions between looks at ``stop``
 BOUND_ROUNDS, BOUND_ROUNDS_PER_S = 60, 1 / 3  #: of the relaxation: for few missions, and per second of the limit for many
@@ -89,7 +89,7 @@ def rearranged(problem: Problem, start: Schedule, seed: int, rounds: int, stop: 
         if stop():
             break
         better = routing.schedule(annealing.advance(CHUNK))
-        if better is not None:
+        if better is not None and better.cost < best.cost:
             best = better
             news(best)
     return best
