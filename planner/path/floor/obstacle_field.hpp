@@ -127,8 +127,8 @@ void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, C
         if (!inside && cells == Cells::rim && !field.beside_floor(cell)) continue;
         const double du = column + 0.5 - u, dv = row + 0.5 - v;
         if (du * du + dv * dv > reach * reach) continue;
-        const auto [x_m, y_m] = grid.center_of(cell, field.cosine, field.sine);
-        visit(BlockedCell{x_m, y_m, 0.5 * grid.resolution_m, grid.origin.heading_rad,
+        const auto [x, y] = grid.center_of(cell, field.cosine, field.sine);
+        visit(BlockedCell{x, y, 0.5 * grid.resolution_m, grid.origin.heading_rad,
                           inside ? field.layer_at(grid.index_of(cell)) : Layer::edge});
       }
   }
