@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every link of the site leads to a file and a place of the site; nothing is loaded from another server.
+"""Every link of the site and of its styles leads to a file and a place of the site; nothing is loaded from another server.
 
 usage: check_links.py SITE_DIR
 """
@@ -11,6 +11,7 @@ import urllib.parse
 
 LINKS = {"a": "href", "link": "href", "img": "src", "script": "src", "iframe": "src", "source": "src"}
 MADE_BY_COMMANDS = ("gallery",)  # whole pages of the program, which tests of their own check
+STYLE = re.compile(r"url\(\s*['\"]?([^'\")]+)")
 GENERATED_SEARCH = re.compile(r"cpp/search/")  # Doxygen's, filled by a script
 
 
@@ -56,10 +57,24 @@ def problems_of(site, name, page, known):
             yield f"{name}: {link} has no such place"
 
 
+def problems_of_styles(site):
+    for file in sorted(site.rglob("*.css")):
+        name = file.relative_to(site).as_posix()
+        for link in STYLE.findall(file.read_text(errors="replace")):
+            address = urllib.parse.urlsplit(link)
+            if address.scheme in ("http", "https") or link.startswith("//"):
+                yield f"{name}: loads {link}"
+            elif not address.scheme and address.path:
+                target = file.parent / urllib.parse.unquote(address.path)
+                if address.path.startswith("/") or not target.is_file():
+                    yield f"{name}: {link} does not exist"
+
+
 def main():
     site = pathlib.Path(sys.argv[1]).resolve()
     known = dict(pages(site))
     problems = [problem for name, page in known.items() for problem in problems_of(site, name, page, known)]
+    problems += problems_of_styles(site)
     print("\n".join(problems[:100]) or f"site: {len(known)} pages, {sum(len(page.links) for page in known.values())} links, 0 broken")
     return 1 if problems or not known else 0
 

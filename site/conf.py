@@ -26,6 +26,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 
 html_theme = "furo"
+html_favicon = "_static/icon.svg"
 html_title = f"joulepath {release}"
 html_show_sphinx = False
 html_copy_source = False
