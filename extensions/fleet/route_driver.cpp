@@ -117,7 +117,8 @@ std::int64_t RouteDriver::charge_s(int charger, int r, std::int64_t level, std::
 
 /// Energy that a robot needs to reach its nearest charger; 0 without chargers.
 std::int64_t RouteDriver::to_dock(int r, int place) const {
-  return to_dock_[static_cast<std::size_t>(problem_.robot(r).type * problem_.places + place)];
+  const int index = problem_.robot(r).type * problem_.places + place;
+  return to_dock_[static_cast<std::size_t>(index)];
 }
 
 /// Energy for a mission from a place, waiting included.

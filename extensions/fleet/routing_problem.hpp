@@ -48,7 +48,8 @@ struct RoutingProblem {
   std::vector<Busy> busy{};    ///< visits of other robots
 
   [[nodiscard]] const Drives& way(int type, int from, int to) const {
-    return ways[static_cast<std::size_t>((type * places + from) * places + to)];
+    const int index = (type * places + from) * places + to;
+    return ways[static_cast<std::size_t>(index)];
   }
   [[nodiscard]] const Robot& robot(int r) const { return robots[static_cast<std::size_t>(r)]; }
   [[nodiscard]] const Type& type_of(int r) const { return types[static_cast<std::size_t>(robot(r).type)]; }
