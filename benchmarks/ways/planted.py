@@ -163,10 +163,11 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|")
     for (shape, kind), cases in rows.items():
         above, spent_s = zip(*cases)
-        found = [value for value in above if math.isfinite(value)] or [math.inf]
-        print(f"| {shape} | {kind} | {len(cases)} | {sum(map(math.isinf, above))} | "
-              f"{sum(value > ENOUGH_PERCENT for value in found if math.isfinite(value))} | {quantile(found, 0.5):+.2f} % | {max(found):+.2f} % | "
+        found = [value for value in above if math.isfinite(value)]
+        against = f"{quantile(found, 0.5):+.2f} % | {max(found):+.2f} %" if found else "none | none"
+        print(f"| {shape} | {kind} | {len(cases)} | {len(above) - len(found)} | {sum(value > ENOUGH_PERCENT for value in found)} | {against} | "
               f"{quantile(spent_s, 0.5):.1f} s | {max(spent_s):.1f} s |")
+
 
 
 if __name__ == "__main__":
