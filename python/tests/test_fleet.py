@@ -28,6 +28,7 @@ from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import Routing  # noqa: E402
 from joulepath.fleet._search import first_schedule, improve, rearranged, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
+from joulepath.fleet._study import rows_of, varied  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
 GOOD = pathlib.Path(__file__).resolve().parents[2] / "tests/data/broken/good/fleet.yaml"
@@ -412,3 +413,54 @@ def test_a_schedule_that_is_not_proven_states_its_own_cost():
     start = first_schedule(problem)
     _, found = solve(problem, workers=1, limit=0.5, start=start)
     assert found is None or (judge.faults(problem, found) == [] and found.bound <= found.cost)
+
+
+def studied(problem, places=(0, 1, 2), scales=(1.0,), client=None):
+    return list(rows_of(problem, places, scales, client, seed=1, workers=1, limit=20.0))
+
+
+@pytest.mark.parametrize("seed", [1, 5, 9])
+def test_more_charging_places_are_never_dearer_in_a_study(seed):
+    """Two of them keep a gap: what fewer places cost is still the most."""
+    problem = generator.small(seed)
+    rows = list(rows_of(problem, (2, 1, 3), (1.0,), None, seed=1, workers=1, limit=1.0))
+    assert [row["charging_places"] for row in rows] == [1, 2, 3]
+    costs = [row["cost_J"] if row["cost_J"] is not None else float("inf") for row in rows]
+    assert costs == sorted(costs, reverse=True)
+    assert all(row["bound_J"] <= row["cost_J"] for row in rows if row["cost_J"] is not None)
+
+
+def test_a_study_states_what_each_fleet_costs_alone():
+    problem = generator.small(7, **SMALL)
+    for row in studied(problem, scales=(1.0, 3.0)):
+        cost = least(varied(problem, row["charging_places"], row["battery_scale"]))
+        assert row["cost_J"] == (None if cost is None else cost / 10)
+
+
+def test_a_queue_of_three_shrinks_with_each_place():
+    """Three robots that lack the same at one charger: with three places nobody waits, and the closed form of one robot holds."""
+    problem = generator.queue(3, 50_000)
+    rows = studied(problem, places=(0, 1, 2, 3))
+    assert rows[0]["status"] == "infeasible" and rows[0]["cost_J"] is None
+    assert rows[1]["cost_J"] == generator.queue_cost(3, 50_000) / 10 > rows[2]["cost_J"] > rows[3]["cost_J"]
+    assert rows[3]["cost_J"] == 3 * generator.queue_cost(1, 50_000) / 10
+    assert [row["visits"] for row in rows[1:]] == [3, 3, 3] and rows[3]["charged_s"] < rows[1]["charged_s"]
+
+
+def test_a_study_is_saved_with_its_chart(tmp_path):
+    found = fleet.study(GOOD, places=(1, 2), battery_scales=(1.0, 2.0), cache=False, workers=1, limit=5.0)
+    found.save(tmp_path / "study")
+    rows = json.loads((tmp_path / "study/study.json").read_text())["rows"]
+    assert [(row["charging_places"], row["battery_scale"]) for row in rows] == [(1, 1.0), (2, 1.0), (1, 2.0), (2, 2.0)]
+    page = (tmp_path / "study/report.html").read_text()
+    assert page.count("<circle") == 4 and page.count("<polyline") == 2 and "is enough" in page
+    assert len((tmp_path / "study/study.csv").read_text().splitlines()) == 5
+    with pytest.raises(jp.ConfigError, match="a file that exists"):
+        found.save(tmp_path / "study")
+
+
+@pytest.mark.parametrize("bad", [{"places": ()}, {"places": (1, 1)}, {"places": (-1,)}, {"places": (1.5,)}, {"places": "x"},
+                                 {"battery_scales": (0.0,)}, {"client": 3}])
+def test_a_study_refuses(bad):
+    with pytest.raises(jp.ConfigError, match=next(iter(bad))):
+        fleet.study(GOOD, cache=False, **bad)

@@ -12,15 +12,18 @@ from __future__ import annotations
 
 import importlib.util
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path as FilePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .._errors import refused
 from .._inputs import number, whole
 from ._problem import UNITS_PER_J, Problem, Schedule
 
-__all__ = ["FleetPlan", "plan"]
+if TYPE_CHECKING:
+    from ._study import FleetStudy
+
+__all__ = ["FleetPlan", "plan", "study"]
 
 
 class FleetPlan:
@@ -96,8 +99,7 @@ def plan(file: str | os.PathLike[str], *, seed: int = 1, workers: int = 8, limit
     with its best schedule when ``stop`` is true. A fleet that cannot be planned has the status ``infeasible`` and the smallest
     helps that work. Raises ConfigError with file, line and key; ImportError without ortools.
     """
-    if importlib.util.find_spec("ortools") is None:
-        raise ImportError("joulepath.fleet needs ortools: pip install joulepath[fleet]")
+    _engine()
     from ._search import search
     from ._table import FleetFile
     from ._verdict import helps, reason_of
@@ -112,3 +114,36 @@ def plan(file: str | os.PathLike[str], *, seed: int = 1, workers: int = 8, limit
     if schedule is None:
         raise refused("limit", f"{limit:g}, in which no schedule was found", "a larger limit")
     return FleetPlan(source, status, schedule, [])
+
+
+def study(file: str | os.PathLike[str], *, places: Sequence[int] = (1, 2, 3), battery_scales: Sequence[float] = (1.0,), seed: int = 1,
+          workers: int = 8, limit: float = 20.0, threads: int = 2, cache: bool = True, client: Any = None,
+          tell: Callable[[str], None] | None = None) -> FleetStudy:
+    """Plans a fleet with each number of places at each charger (0: no charger) and each scale of the batteries.
+
+    ``limit``: of each fleet. ``client``: a ``distributed.Client``, whose workers plan the fleets; they need this package with
+    ``ortools``. ``rows`` have charging_places, battery_scale, status, cost_J and bound_J (None without a schedule), robots, visits,
+    charged_s, late_s. ``save`` writes study.json, study.csv and report.html. More places are never dearer. Raises ConfigError;
+    ImportError without ortools.
+    """
+    _engine()
+    from .._cluster_inputs import connected
+    from ._study import FleetStudy, rows_of, values
+    from ._table import FleetFile
+
+    seed, workers = whole("seed", seed, 0, 2**31 - 1), whole("workers", workers, 1, 256)
+    limit, say = number("limit", limit, above=0.0), tell or (lambda _: None)
+    counts = tuple(whole("places", int(n) if n.is_integer() else n, 0, 1000) for n in values("places", places, 0.0))
+    scales = values("battery_scales", battery_scales, 0.01)
+    workers_of = None if client is None else connected(client)
+    source = FleetFile(file, threads=threads, cache=cache, progress=lambda done, of: say(f"energies of legs: {done} of {of}"))
+    rows = []
+    for row in rows_of(source.problem, counts, scales, workers_of, seed=seed, workers=workers, limit=limit):
+        rows.append(row)
+        say(f"{row['charging_places']} places, battery x {row['battery_scale']:g}: {row['status']}")
+    return FleetStudy(source.content["name"], tuple(rows))
+
+
+def _engine() -> None:
+    if importlib.util.find_spec("ortools") is None:
+        raise ImportError("joulepath.fleet needs ortools: pip install joulepath[fleet]")

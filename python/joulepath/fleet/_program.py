@@ -8,7 +8,7 @@ import signal
 import sys
 
 from .._errors import ConfigError
-from . import plan
+from . import plan, study
 
 DONE, NO_SCHEDULE, BAD_INPUT = 0, 1, 2
 
@@ -19,6 +19,8 @@ def main(words: list[str]) -> int:
     stopped: list[int] = []
     signal.signal(signal.SIGINT, lambda number, _: stopped.append(number))
     try:
+        if line.places or line.battery_scales:
+            return _study(line)
         found = plan(line.fleet, seed=line.seed, workers=line.workers, limit=line.limit, cache=not line.no_cache,
                      tell=None if line.quiet else lambda text: print("  " + text, file=sys.stderr), stop=lambda: bool(stopped))
         executions = found.simulate(line.simulate, seed=line.seed) if line.simulate else []
@@ -40,6 +42,26 @@ def main(words: list[str]) -> int:
     return DONE if found.schedule else NO_SCHEDULE
 
 
+def _study(line: argparse.Namespace) -> int:
+    found = study(line.fleet, places=_numbers(line.places or "1,2,3"), battery_scales=_numbers(line.battery_scales or "1"),  # type: ignore[arg-type]
+                  seed=line.seed, workers=line.workers, limit=line.limit, cache=not line.no_cache,
+                  tell=None if line.quiet else lambda text: print("  " + text, file=sys.stderr))
+    if line.out:
+        found.save(line.out, force=line.force)
+    if line.json:
+        print(json.dumps(list(found.rows), indent=2))
+    elif not line.quiet:
+        from ._study import sentence
+
+        print(sentence(found))
+    return DONE if any(row["cost_J"] is not None for row in found.rows) else NO_SCHEDULE
+
+
+def _numbers(text: str) -> list[str | int]:
+    """Numbers between commas; ``study`` checks them."""
+    return [int(word) if word.isdigit() else word for word in text.split(",")]
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="joulepath fleet", description="Who drives what, when and where to charge.")
     parser.add_argument("fleet", metavar="FLEET", help="fleet file")
@@ -50,6 +72,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--limit", type=float, default=60.0, help="deterministic time of the search, about CPU seconds")
     parser.add_argument("--simulate", type=int, default=0, metavar="N",
                         help="drive the schedule N times with energies of the model's uncertainty")
+    parser.add_argument("--places", metavar="N,N,...", help="a study: places at each charger, 0 for none")
+    parser.add_argument("--battery-scales", metavar="X,X,...", help="a study: batteries relative to those of the robot files")
     parser.add_argument("--no-cache", action="store_true", help="no cache of legs on disk")
     parser.add_argument("--json", action="store_true", help="fleet.json on standard output")
     parser.add_argument("-q", "--quiet", action="store_true")
