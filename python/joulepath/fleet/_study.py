@@ -21,7 +21,7 @@ from ._report import HERE, _table
 from ._search import search
 
 COLUMNS = ("charging_places", "battery_scale", "status", "cost_J", "bound_J", "robots", "visits", "charged_s", "late_s")
-WIDTH, HEIGHT, LEFT, BELOW = 1000, 320, 90, 34
+WIDTH, HEIGHT, LEFT, RIGHT, ABOVE, BELOW = 560, 300, 90, 60, 30, 60  #: of the chart
 
 
 @dataclass(frozen=True)
@@ -97,8 +97,9 @@ def sentence(study: FleetStudy) -> str:
     least = min(row["cost_J"] for row in planned)
     enough = next(row for row in planned if row["cost_J"] <= 1.01 * least)
     count = enough["charging_places"]
+    saved = 100 * (1 - least / enough["cost_J"]) if enough["cost_J"] else 0.0
     return (f"{'1 place at each charger is' if count == 1 else f'{count} places at each charger are'} enough: {enough['cost_J']:.0f} J. "
-            f"With more places it is {least:.0f} J at least.")
+            f"More places save {f'{saved:.1f} %' if saved >= 0.05 else 'nothing'}.")
 
 
 def _page(study: FleetStudy) -> str:
@@ -121,16 +122,18 @@ def _chart(study: FleetStudy) -> str:
     if not planned:
         return "<p>No schedule.</p>"
     most = max(row["cost_J"] for row in planned)
-    least = min(row["bound_J"] for row in planned)
-    low = least - 0.05 * max(most - least, 0.01 * most)
+    low = min(0.9 * most, *(row["bound_J"] for row in planned))
     places = sorted({row["charging_places"] for row in study.rows})
     span = max(1, places[-1] - places[0])
 
     def at(n: int, cost_J: float) -> tuple[float, float]:
-        return LEFT + (WIDTH - LEFT - 40) * (n - places[0]) / span, 12 + (HEIGHT - 12 - BELOW) * (most - cost_J) / max(most - low, 1e-9)
+        across, down = (n - places[0]) / span, (most - cost_J) / max(most - low, 1e-9)
+        return LEFT + (WIDTH - LEFT - RIGHT) * across, ABOVE + (HEIGHT - ABOVE - BELOW) * down
 
-    parts = [f'<text x="{at(n, low)[0]:.0f}" y="{HEIGHT - 10}" text-anchor="middle">{n}</text>' for n in places]
-    parts += [f'<text x="{LEFT - 12}" y="{at(places[0], value)[1] + 5:.0f}" text-anchor="end">{value:.0f} J</text>' for value in (most, least)]
+    having = {row["charging_places"] for row in planned}
+    parts = [f'<text x="{at(n, low)[0]:.0f}" y="{HEIGHT - 32}" text-anchor="middle">{n}{"" if n in having else ": none"}</text>' for n in places]
+    parts.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2:.0f}" y="{HEIGHT - 8}" text-anchor="middle">places at each charger</text>')
+    parts += [f'<text x="{LEFT - 12}" y="{at(places[0], value)[1] + 5:.0f}" text-anchor="end">{value:.0f} J</text>' for value in (most, low)]
     for k, scale in enumerate(sorted({row["battery_scale"] for row in study.rows})):
         line = [row for row in planned if row["battery_scale"] == scale]
         points = [(at(row["charging_places"], row["cost_J"]), at(row["charging_places"], row["bound_J"])) for row in line]
@@ -144,8 +147,8 @@ def _chart(study: FleetStudy) -> str:
             (x, y), _ = points[-1]
             parts.append(f'<text x="{x + 10:.0f}" y="{y - 8 if k % 2 == 0 else y + 18:.0f}">x {scale:g}</text>')
     return (f'<svg class="study" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="Cost by charging places">{"".join(parts)}</svg>'
-            '<p class="soft small">Across: places at each charger. A line is a battery, relative to the file\'s; the stroke below a point reaches '
-            "to the bound of its cost.</p>")
+            '<p class="soft small">A line is a battery, relative to that of the file. The stroke below a point reaches to the bound of its cost. '
+            "None: no schedule exists.</p>")
 
 
 def values(name: str, given: Any, least: float) -> tuple[float, ...]:
