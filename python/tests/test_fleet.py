@@ -447,6 +447,13 @@ def test_a_queue_of_three_shrinks_with_each_place():
     assert [row["visits"] for row in rows[1:]] == [3, 3, 3] and rows[3]["charged_s"] < rows[1]["charged_s"]
 
 
+def test_a_study_on_a_cluster_has_the_same_rows():
+    distributed = pytest.importorskip("distributed")
+    problem = generator.small(7, **SMALL)
+    with distributed.Client(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None) as client:
+        assert studied(problem, scales=(1.0, 2.0), client=client) == studied(problem, scales=(1.0, 2.0))
+
+
 def test_a_study_is_saved_with_its_chart(tmp_path):
     found = fleet.study(GOOD, places=(1, 2), battery_scales=(1.0, 2.0), cache=False, workers=1, limit=5.0)
     found.save(tmp_path / "study")

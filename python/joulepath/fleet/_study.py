@@ -9,7 +9,6 @@ import json
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -51,10 +50,10 @@ def varied(problem: Problem, places: int, scale: float) -> Problem:
     return replace(problem, types=types, robots=robots, chargers=chargers)
 
 
-def row_of(problem: Problem, places: int, scale: float, *, seed: int, workers: int, limit: float) -> dict[str, Any]:
-    """One row of a study."""
+def row_of(problem: Problem, places: int, scale: float, options: dict[str, Any]) -> dict[str, Any]:
+    """One row of a study. ``options``: of ``search``."""
     fleet = varied(problem, places, scale)
-    status, found = search(fleet, seed=seed, workers=workers, limit=limit)
+    status, found = search(fleet, **options)
     row = dict(zip(COLUMNS, (places, scale, status)))
     return {**row, **(_figures(fleet, found) if found else dict.fromkeys(COLUMNS[3:]))}
 
@@ -70,8 +69,10 @@ def _figures(problem: Problem, found: Schedule) -> dict[str, Any]:
 def rows_of(problem: Problem, places: Sequence[int], scales: Sequence[float], client: Any, **options: Any) -> Iterable[dict[str, Any]]:
     """Rows in order; with a client, its workers plan the fleets."""
     jobs = [(n, scale) for scale in scales for n in sorted(places)]
-    one = partial(row_of, problem, **options)
-    rows = (one(*job) for job in jobs) if client is None else client.gather(client.map(one, *zip(*jobs), pure=False))
+    if client is None:
+        rows: Iterable[dict[str, Any]] = (row_of(problem, n, scale, options) for n, scale in jobs)
+    else:
+        rows = client.gather(client.map(row_of, [problem] * len(jobs), *zip(*jobs), [options] * len(jobs), pure=False))
     return _never_dearer(rows)
 
 
