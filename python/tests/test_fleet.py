@@ -135,6 +135,15 @@ def test_routes_at_prices_bound_every_schedule_at_any_number_of_rounds(made, see
         assert all(relaxed_bound(problem, found.cost + more, rounds) <= found.cost for rounds in (1, 7, 40) for more in (0, 50_000))
 
 
+def test_a_day_of_missions_of_a_second_has_no_bound_by_routes():
+    """Steps of time are no longer than a mission with its way: a day of them would take seconds a round."""
+    problem = generator.small(2, robots=3, missions=8)
+    tick, nothing = (Drive(1, 1_000, 1_100),), (Drive(0, 0, 0),)
+    late = tuple(dataclasses.replace(m, drives={0: tick}, ready_s=86_400, due_s=NEVER) for m in problem.missions)
+    problem = dataclasses.replace(problem, missions=late, ways={key: nothing for key in problem.ways})
+    assert relaxed_bound(problem, 10**9, 1000) == 0
+
+
 def test_what_a_robot_lacks_is_charged_though_another_one_holds_it():
     """28,000 for the mission and the direct way; what the robot lacks for them, 47,000, is charged in 47 s of standby."""
     problem = generator.queue(2, 50_000)

@@ -45,7 +45,8 @@ class FleetPlan:
 
     @property
     def bound_J(self) -> float:
-        """No schedule of this fleet costs less."""
+        """No schedule of this fleet costs less that drives to and from chargers at the cheapest speed, with one charge at most between
+        two missions."""
         return self.schedule.bound / UNITS_PER_J if self.schedule else float("inf")
 
     @property

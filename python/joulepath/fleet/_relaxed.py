@@ -131,14 +131,14 @@ def _driven_by(problem: Problem, t: int) -> list[int]:
 
 
 def relaxed_bound(problem: Problem, most: int, rounds: int, stop: Callable[[], bool] = lambda: False) -> int:
-    """The bound after so many subgradient steps towards a known cost; 0 for too many missions, and where missions and ways take
-    no time."""
+    """The bound after so many subgradient steps towards a known cost; 0 for too many missions, and where missions and ways are too
+    short for the time that they span: a round would take seconds."""
     if len(problem.missions) > MOST_MISSIONS:
         return 0
     last_s = max((x.due_s for x in problem.missions if x.due_s < NEVER), default=0)
     latest_s = max([last_s, *(x.ready_s for x in problem.missions), *(x.from_s for x in problem.robots)]) + BEYOND_S
     kinds = [_Kind(problem, t, latest_s) for t in range(len(problem.types)) if _driven_by(problem, t)]
-    if any(kind.step_s < 1 for kind in kinds):
+    if any(kind.step_s < 1 or kind.steps > 4 * MOST_STEPS for kind in kinds):
         return 0
     ceiling = _ceiling(problem, kinds)
     prices, found, best_prices, scale, waited = np.minimum(_first(problem, kinds), ceiling), 0.0, None, STEPS, 0
