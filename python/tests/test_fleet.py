@@ -475,6 +475,17 @@ def test_a_study_is_saved_with_its_chart(tmp_path):
         found.save(tmp_path / "study")
 
 
+@pytest.mark.parametrize(("words", "says"), [(["--places", "1,x"], "places: found"), (["--places", "2", "--simulate", "3"], "simulate: found 3"),
+                                             (["--places", "2", "--out", "."], "a file that exists")])
+def test_the_command_refuses_a_study_before_it_plans(tmp_path, monkeypatch, capsys, words, says):
+    from joulepath.fleet._program import main
+
+    (tmp_path / "study.json").write_text("{}")
+    monkeypatch.chdir(tmp_path)
+    assert main([str(GOOD), *words]) == 2
+    assert says in capsys.readouterr().err and (tmp_path / "study.json").read_text() == "{}"
+
+
 @pytest.mark.parametrize("bad", [{"places": ()}, {"places": (1, 1)}, {"places": (-1,)}, {"places": (1.5,)}, {"places": "x"},
                                  {"battery_scales": (0.0,)}, {"client": 3}])
 def test_a_study_refuses(bad):

@@ -6,8 +6,9 @@ import argparse
 import json
 import signal
 import sys
+from pathlib import Path as FilePath
 
-from .._errors import ConfigError
+from .._errors import ConfigError, refused
 from . import plan, study
 
 DONE, NO_SCHEDULE, BAD_INPUT = 0, 1, 2
@@ -43,6 +44,10 @@ def main(words: list[str]) -> int:
 
 
 def _study(line: argparse.Namespace) -> int:
+    if line.simulate:
+        raise refused("simulate", str(line.simulate), "a plan, without --places and --battery-scales")
+    if line.out and not line.force and (FilePath(line.out) / "study.json").exists():  # before the fleets are planned
+        raise refused("directory", f"{FilePath(line.out) / 'study.json'}, a file that exists", "a new name", "--force overwrites it")
     found = study(line.fleet, places=_numbers(line.places or "1,2,3"), battery_scales=_numbers(line.battery_scales or "1"),  # type: ignore[arg-type]
                   seed=line.seed, workers=line.workers, limit=line.limit, cache=not line.no_cache,
                   tell=None if line.quiet else lambda text: print("  " + text, file=sys.stderr))
