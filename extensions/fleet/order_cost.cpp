@@ -63,17 +63,20 @@ std::vector<OrderCost::State> OrderCost::states(int robot, std::span<const int> 
 }
 
 double OrderCost::total(int robot, const std::vector<State>& states) const {
-  if (states.size() == 1) return 0;
+  return states.size() == 1 ? 0 : ended(robot, states.back());
+}
+
+/// The cost of an order that ends in a state.
+double OrderCost::ended(int robot, const State& last) const {
   const auto& by = problem_.robot(robot);
-  return as_double(by.use_price) + states.back().paid +
-         as_double(problem_.type_of(robot).standby) * (states.back().clock_s - as_double(by.from_s));
+  return as_double(by.use_price) + last.paid +
+         as_double(problem_.type_of(robot).standby) * (last.clock_s - as_double(by.from_s));
 }
 
 OrderCost::Insertion OrderCost::insertion(int robot, std::span<const int> order,
                                           const std::vector<State>& states, int m, double below,
                                           Random* chance) const {
   const int type = problem_.robot(robot).type;
-  if (problem_.drives(m, type).empty()) return {};
   const auto& mission = problem_.mission(m);
   const auto motion = [&](int from, int to) {
     return as_double(problem_.way(type, from, to).front().motion);
@@ -106,10 +109,7 @@ double OrderCost::extra(int robot, std::span<const int> order, const std::vector
     if (at.clock_s == before.clock_s)
       return at.paid - before.paid + charging(robot, states.back().used + at.used - before.used);
   }
-  const auto& by = problem_.robot(robot);
-  return as_double(by.use_price) + at.paid +
-         as_double(problem_.type_of(robot).standby) * (at.clock_s - as_double(by.from_s)) -
-         total(robot, states);
+  return ended(robot, at) - total(robot, states);
 }
 
 /// Standby while a robot charges what it uses beyond its battery.

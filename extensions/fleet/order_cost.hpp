@@ -41,6 +41,7 @@ class OrderCost {
   void advance(int robot, int mission, State& at) const;
   double extra(int robot, std::span<const int> order, const std::vector<State>& states, int mission,
                std::size_t position, double below) const;
+  double ended(int robot, const State& last) const;
   double charging(int robot, double used) const;
 
   const RoutingProblem& problem_;

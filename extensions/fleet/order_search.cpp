@@ -14,8 +14,7 @@ constexpr double kLongest = 10;   ///< of the strings
 constexpr double kFarPerS = 0.1;  ///< of two missions, for each second between their ready times
 /// Shares of a mission's mean cost: about so much dearer orders are kept at the begin and at the end.
 constexpr double kFirstTemperature = 0.6, kLastTemperature = 0.02;
-constexpr double kRobotsFree =
-    0.1;  ///< chance that the use of robots costs nothing while missions are inserted
+constexpr double kRobotsFree = 0.1;    ///< chance that robots cost nothing in a round
 constexpr std::size_t kSameWait = 20;  ///< rounds
 
 using States = std::vector<std::vector<OrderCost::State>>;

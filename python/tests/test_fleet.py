@@ -28,7 +28,7 @@ from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import Routing  # noqa: E402
 from joulepath.fleet._search import first_schedule, improve, rearranged, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
-from joulepath.fleet._study import rows_of, varied  # noqa: E402
+from joulepath.fleet._study import _never_dearer, rows_of, varied  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
 GOOD = pathlib.Path(__file__).resolve().parents[2] / "tests/data/broken/good/fleet.yaml"
@@ -437,6 +437,15 @@ def test_more_charging_places_are_never_dearer_in_a_study(seed):
     costs = [row["cost_J"] if row["cost_J"] is not None else float("inf") for row in rows]
     assert costs == sorted(costs, reverse=True)
     assert all(row["bound_J"] <= row["cost_J"] for row in rows if row["cost_J"] is not None)
+
+
+def test_a_bound_for_fewer_places_is_none_for_more():
+    known = {"charging_places": 1, "battery_scale": 1.0, "status": "optimal", "cost_J": 100.0, "bound_J": 100.0}
+    unknown = {"charging_places": 2, "battery_scale": 1.0, "status": "unknown", "cost_J": None, "bound_J": 80.0}
+    dearer = {"charging_places": 3, "battery_scale": 1.0, "status": "feasible", "cost_J": 120.0, "bound_J": 100.0}
+    rows = list(_never_dearer([known, unknown, dearer]))
+    assert [(row["charging_places"], row["status"], row["cost_J"], row["bound_J"]) for row in rows] == [
+        (1, "optimal", 100.0, 100.0), (2, "feasible", 100.0, 80.0), (3, "optimal", 100.0, 100.0)]
 
 
 def test_a_study_states_what_each_fleet_costs_alone():

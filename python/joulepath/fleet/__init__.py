@@ -100,18 +100,14 @@ def plan(file: str | os.PathLike[str], *, seed: int = 1, workers: int = 8, limit
     with its best schedule when ``stop`` is true. A fleet that cannot be planned has the status ``infeasible`` and the smallest
     helps that work. Raises ConfigError with file, line and key; ImportError without ortools.
     """
-    _engine()
+    source, options, say = _opened(file, seed, workers, limit, threads, cache, tell)
     from ._search import search
-    from ._table import FleetFile
     from ._verdict import helps, reason_of
 
-    seed, workers = whole("seed", seed, 0, 2**31 - 1), whole("workers", workers, 1, 256)
-    limit, say = number("limit", limit, above=0.0), tell or (lambda _: None)
-    source = FleetFile(file, threads=threads, cache=cache, progress=lambda done, of: say(f"energies of legs: {done} of {of}"))
-    status, schedule = search(source.problem, seed=seed, workers=workers, limit=limit, tell=say, stop=stop)
+    status, schedule = search(source.problem, **options, tell=say, stop=stop)
     if status == "infeasible":
-        source.reason = reason_of(source, seed=seed, workers=workers, limit=limit)
-        return FleetPlan(source, status, None, helps(source, seed=seed, workers=workers, limit=limit))
+        source.reason = reason_of(source, **options)
+        return FleetPlan(source, status, None, helps(source, **options))
     if schedule is None:
         raise refused("limit", f"{limit:g}, in which no schedule was found", "a larger limit")
     return FleetPlan(source, status, schedule, [])
@@ -123,26 +119,34 @@ def study(file: str | os.PathLike[str], *, places: Sequence[int] = (1, 2, 3), ba
     """Plans a fleet with each number of places at each charger (0: no charger) and each scale of the batteries.
 
     ``limit``: of each fleet. ``client``: a ``distributed.Client``, whose workers plan the fleets; they need this package with
-    ``ortools``. ``rows`` have charging_places, battery_scale, status, cost_J and bound_J (None without a schedule), robots, visits,
-    charged_s, late_s. ``save`` writes study.json, study.csv and report.html. More places are never dearer. Raises ConfigError;
+    ``ortools``. ``rows`` have charging_places, battery_scale, status, cost_J, bound_J, robots, visits, charged_s, late_s (None without
+    a schedule, but for the bound). ``save`` writes study.json, study.csv and report.html. More places are never dearer. Raises ConfigError;
     ImportError without ortools.
     """
     _engine()
     from .._cluster_inputs import connected
     from ._study import FleetStudy, rows_of, values
-    from ._table import FleetFile
 
-    seed, workers = whole("seed", seed, 0, 2**31 - 1), whole("workers", workers, 1, 256)
-    limit, say = number("limit", limit, above=0.0), tell or (lambda _: None)
     counts = tuple(whole("places", int(n) if n.is_integer() else n, 0, 1000) for n in values("places", places, 0.0))
-    scales = values("battery_scales", battery_scales, 0.01)
-    workers_of = None if client is None else connected(client)
-    source = FleetFile(file, threads=threads, cache=cache, progress=lambda done, of: say(f"energies of legs: {done} of {of}"))
+    scales, on = values("battery_scales", battery_scales, 0.01), None if client is None else connected(client)
+    source, options, say = _opened(file, seed, workers, limit, threads, cache, tell)
     rows = []
-    for row in rows_of(source.problem, counts, scales, workers_of, seed=seed, workers=workers, limit=limit):
+    for row in rows_of(source.problem, counts, scales, on, **options):
         rows.append(row)
         say(f"{row['charging_places']} places, battery x {row['battery_scale']:g}: {row['status']}")
     return FleetStudy(source.content["name"], tuple(rows))
+
+
+def _opened(file: str | os.PathLike[str], seed: int, workers: int, limit: float, threads: int, cache: bool,
+            tell: Callable[[str], None] | None) -> tuple[Any, dict[str, Any], Callable[[str], None]]:
+    """The fleet of a file, the options of its searches, and who is told of progress."""
+    _engine()
+    from ._table import FleetFile
+
+    options = {"seed": whole("seed", seed, 0, 2**31 - 1), "workers": whole("workers", workers, 1, 256),
+               "limit": number("limit", limit, above=0.0)}
+    say = tell or (lambda _: None)
+    return FleetFile(file, threads=threads, cache=cache, progress=lambda done, of: say(f"energies of legs: {done} of {of}")), options, say
 
 
 def _engine() -> None:

@@ -16,15 +16,19 @@ HERE = FilePath(__file__).parent
 
 def report_html(source: Any, content: dict[str, Any]) -> str:
     """The page: verdict, playback, Gantt charts of robots and chargers, batteries, map, missions, executions."""
-    title = html.escape(f"Fleet {content['fleet']}")
-    about = f"{_core.page_day()} · joulepath {_core.version}"
-    body = _charts(source, content) if "robots" in content else _helps(content)
+    told = f"<p>{html.escape(_sentence(content))}</p><p class=\"soft\">{html.escape(content['traffic'])}</p>"
+    return page_html(f"Fleet {content['fleet']}", _badge(content["status"]),
+                     told + (_charts(source, content) if "robots" in content else _helps(content)))
+
+
+def page_html(name: str, badge: str, body: str) -> str:
+    """A page in the style of the program's reports."""
+    title, about = html.escape(name), f"{_core.page_day()} · joulepath {_core.version}"
     style = _core.page_style() + (HERE / "report.css").read_text(encoding="utf-8")
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
             f'<meta name="generator" content="joulepath"><title>{title} · {about}</title><link rel="icon" href="data:,"><style>{style}</style></head>'
-            f'<body><main><header class="top"><h1>{title}</h1>{_badge(content["status"])}</header>'
-            f'<p class="soft small">{about}</p>'
-            f"<p>{html.escape(_sentence(content))}</p><p class=\"soft\">{html.escape(content['traffic'])}</p>{body}</main></body></html>\n")
+            f'<body><main><header class="top"><h1>{title}</h1>{badge}</header>'
+            f'<p class="soft small">{about}</p>{body}</main></body></html>\n')
 
 
 def _badge(status: str) -> str:
@@ -71,7 +75,7 @@ def _row(cells: list[tuple[str, bool]], head: bool = False) -> str:
     return "".join(f'<{tag}{" class=n" if numeric else ""}>{html.escape(text)}</{tag}>' for text, numeric in cells)
 
 
-def _table(head: list[tuple[str, bool]], rows: list[tuple[str, list[str]]]) -> str:
+def table_html(head: list[tuple[str, bool]], rows: list[tuple[str, list[str]]]) -> str:
     """``rows``: class and texts."""
     body = "".join(f'<tr class="{name}">{_row([(text, numeric) for text, (_, numeric) in zip(texts, head)])}</tr>' for name, texts in rows)
     return f'<div class="scroll"><table><thead><tr>{_row(head, True)}</tr></thead><tbody>{body}</tbody></table></div>'
@@ -80,7 +84,7 @@ def _table(head: list[tuple[str, bool]], rows: list[tuple[str, list[str]]]) -> s
 def _missions(content: dict[str, Any]) -> str:
     head = [("mission", False), ("robot", False), ("begins, s", True), ("ends, s", True), ("due, s", True), ("late, s", True)]
     head += [("why late", False)] if any(m["late_s"] for m in content["missions"]) else []
-    return _table(head, [("late" if m["late_s"] else "", [m["name"], m["robot"], str(m["from_s"]), str(m["to_s"]),
+    return table_html(head, [("late" if m["late_s"] else "", [m["name"], m["robot"], str(m["from_s"]), str(m["to_s"]),
                                                          "" if m["due_s"] is None else str(m["due_s"]), str(m["late_s"]), m["why"]])
                          for m in sorted(content["missions"], key=lambda m: (-m["late_s"], m["from_s"], m["name"]))])
 
@@ -92,4 +96,4 @@ def _executions(content: dict[str, Any]) -> str:
             ("waits at chargers, s a run", True)]
     rows = [("", [x["case"], str(x["runs"]), f"{x['breaches']} of {x['days']}", f"{x['breaches_binding']} of {x['days_binding']}",
                   f"{x['late_s']:.1f}", f"{x['waited_s']:.1f}"]) for x in content["executions"]]
-    return f'<section class="long"><h2>Executions</h2>{_table(head, rows)}</section>'
+    return f'<section class="long"><h2>Executions</h2>{table_html(head, rows)}</section>'

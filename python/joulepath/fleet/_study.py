@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any
 
-from .. import _core
 from .._errors import refused
 from .._files import save as written
+from ._bound import bound
 from ._problem import UNITS_PER_J, Problem, Schedule
-from ._report import HERE, _table
+from ._report import page_html, table_html
 from ._search import search
 
 COLUMNS = ("charging_places", "battery_scale", "status", "cost_J", "bound_J", "robots", "visits", "charged_s", "late_s")
@@ -25,7 +25,7 @@ WIDTH, HEIGHT, LEFT, RIGHT, ABOVE, BELOW = 560, 300, 90, 60, 30, 60  #: of the c
 
 @dataclass(frozen=True)
 class FleetStudy:
-    """Rows of ``COLUMNS``; costs are None without a schedule."""
+    """Rows of ``COLUMNS``; costs are None without a schedule, bounds where none exists."""
 
     fleet: str
     rows: tuple[dict[str, Any], ...]
@@ -55,7 +55,9 @@ def row_of(problem: Problem, places: int, scale: float, options: dict[str, Any])
     fleet = varied(problem, places, scale)
     status, found = search(fleet, **options)
     row = dict(zip(COLUMNS, (places, scale, status)))
-    return {**row, **(_figures(fleet, found) if found else dict.fromkeys(COLUMNS[3:]))}
+    if found is not None:
+        return {**row, **_figures(fleet, found)}
+    return {**row, **dict.fromkeys(COLUMNS[3:]), "bound_J": None if status == "infeasible" else bound(fleet) / UNITS_PER_J}
 
 
 def _figures(problem: Problem, found: Schedule) -> dict[str, Any]:
@@ -77,13 +79,13 @@ def rows_of(problem: Problem, places: Sequence[int], scales: Sequence[float], cl
 
 
 def _never_dearer(rows: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:
-    """A schedule with fewer places at the same battery is one with more."""
+    """A schedule with fewer places at the same battery is one with more; a bound for fewer is none for more."""
     best: dict[float, dict[str, Any]] = {}
     for row in rows:
         known = best.get(row["battery_scale"])
         if known and (row["cost_J"] is None or row["cost_J"] > known["cost_J"]):
-            bound_J = known["bound_J"] if row["bound_J"] is None else min(row["bound_J"], known["cost_J"])
-            row = {**known, "charging_places": row["charging_places"], "status": "feasible", "bound_J": bound_J}
+            low_J = min(row["bound_J"] or 0.0, known["cost_J"])
+            row = {**known, "charging_places": row["charging_places"], "bound_J": low_J, "status": "optimal" if low_J == known["cost_J"] else "feasible"}
         if row["cost_J"] is not None:
             best[row["battery_scale"]] = row
         yield row
@@ -104,17 +106,13 @@ def sentence(study: FleetStudy) -> str:
 
 
 def _page(study: FleetStudy) -> str:
-    title, about = html.escape(f"Chargers of {study.fleet}"), f"{_core.page_day()} · joulepath {_core.version}"
-    style = _core.page_style() + (HERE / "report.css").read_text(encoding="utf-8")
     head = [(name.replace("_", " "), name not in ("status",)) for name in COLUMNS]
     rows = [("", ["" if row[name] is None else f"{row[name]:.0f}" if name.endswith("_J") else str(row[name]) for name in COLUMNS])
             for row in study.rows]
-    return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
-            f'<meta name="generator" content="joulepath"><title>{title} · {about}</title><link rel="icon" href="data:,"><style>{style}</style></head>'
-            f'<body><main><header class="top"><h1>{title}</h1></header><p class="soft small">{about}</p><p>{html.escape(sentence(study))}</p>'
-            f'<p class="soft">The weight of a larger battery is not in the energies of the legs.</p>'
-            f'<section class="long"><h2>Cost by charging places</h2>{_chart(study)}</section>'
-            f'<section class="long"><h2>Fleets</h2>{_table(head, rows)}</section></main></body></html>\n')
+    return page_html(f"Chargers of {study.fleet}", "", f'<p>{html.escape(sentence(study))}</p>'
+                     '<p class="soft">The weight of a larger battery is not in the energies of the legs.</p>'
+                     f'<section class="long"><h2>Cost by charging places</h2>{_chart(study)}</section>'
+                     f'<section class="long"><h2>Fleets</h2>{table_html(head, rows)}</section>')
 
 
 def _chart(study: FleetStudy) -> str:
