@@ -28,7 +28,7 @@ from joulepath.fleet._relaxed import relaxed_bound  # noqa: E402
 from joulepath.fleet._routes import Routing  # noqa: E402
 from joulepath.fleet._search import first_schedule, improve, rearranged, search  # noqa: E402
 from joulepath.fleet._simulate import most_driven, simulate  # noqa: E402
-from joulepath.fleet._study import _never_dearer, rows_of, varied  # noqa: E402
+from joulepath.fleet._study import FleetStudy, _never_dearer, rows_of, sentence, varied  # noqa: E402
 
 SMALL = {"robots": 2, "missions": 4, "chargers": 1, "speeds": 1}
 GOOD = pathlib.Path(__file__).resolve().parents[2] / "tests/data/broken/good/fleet.yaml"
@@ -437,6 +437,16 @@ def test_more_charging_places_are_never_dearer_in_a_study(seed):
     costs = [row["cost_J"] if row["cost_J"] is not None else float("inf") for row in rows]
     assert costs == sorted(costs, reverse=True)
     assert all(row["bound_J"] <= row["cost_J"] for row in rows if row["cost_J"] is not None)
+
+
+def test_a_study_says_what_it_tried_for_each_battery():
+    def row(places, scale, cost_J):
+        return {"charging_places": places, "battery_scale": scale, "cost_J": cost_J}
+
+    rows = (row(0, 1.0, None), row(1, 1.0, 110.0), row(2, 1.0, 100.0), row(3, 1.0, 99.5), row(1, 0.5, 200.0), row(1, 0.1, None))
+    assert sentence(FleetStudy("night", rows)) == (
+        "Battery x 1: 2 places at each charger are enough, 100 J; up to 3 save 0.5 %. "
+        "Battery x 0.5: 1 place at each charger is enough, 200 J; more were not tried. Battery x 0.1: no schedule was found.")
 
 
 def test_a_bound_for_fewer_places_is_none_for_more():

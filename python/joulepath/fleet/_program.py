@@ -68,7 +68,7 @@ def _numbers(text: str) -> list[str | int]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="joulepath fleet", description="Who drives what, when and where to charge.")
+    parser = argparse.ArgumentParser(prog="joulepath fleet", allow_abbrev=False, description="Who drives what, when and where to charge.")
     parser.add_argument("fleet", metavar="FLEET", help="fleet file")
     parser.add_argument("--out", help="directory for fleet.json, report.html and missions/")
     parser.add_argument("--force", action="store_true", help="overwrite files of an earlier plan")

@@ -92,17 +92,23 @@ def _never_dearer(rows: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:
 
 
 def sentence(study: FleetStudy) -> str:
-    """What the rows say: the fewest places from which one more saves less than 1 %, with the batteries as they are."""
-    rows = [row for row in study.rows if row["battery_scale"] == study.rows[0]["battery_scale"]]
+    """What the rows say, for each battery: the fewest places from which more save less than 1 %."""
+    return " ".join(_sentence(scale, [row for row in study.rows if row["battery_scale"] == scale])
+                    for scale in dict.fromkeys(row["battery_scale"] for row in study.rows))
+
+
+def _sentence(scale: float, rows: list[dict[str, Any]]) -> str:
     planned = [row for row in rows if row["cost_J"] is not None]
     if not planned:
-        return "No schedule exists with any of these numbers of charging places."
+        return f"Battery x {scale:g}: no schedule was found."
     least = min(row["cost_J"] for row in planned)
     enough = next(row for row in planned if row["cost_J"] <= 1.01 * least)
-    count = enough["charging_places"]
+    count, most = enough["charging_places"], rows[-1]["charging_places"]
+    told = f"Battery x {scale:g}: {count} {'place' if count == 1 else 'places'} at each charger {'is' if count == 1 else 'are'} enough, {enough['cost_J']:.0f} J"
+    if count == most:
+        return told + "; more were not tried."
     saved = 100 * (1 - least / enough["cost_J"]) if enough["cost_J"] else 0.0
-    return (f"{'1 place at each charger is' if count == 1 else f'{count} places at each charger are'} enough: {enough['cost_J']:.0f} J. "
-            f"More places save {f'{saved:.1f} %' if saved >= 0.05 else 'nothing'}.")
+    return told + f"; up to {most} save {f'{saved:.1f} %' if saved >= 0.05 else 'nothing'}."
 
 
 def _page(study: FleetStudy) -> str:
