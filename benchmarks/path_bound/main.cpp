@@ -10,8 +10,10 @@
 
 #include "benchmarks/path_bound/judge_robot.hpp"
 #include "benchmarks/support/cpu_time.hpp"
+#include "benchmarks/ways/joint_cases.hpp"
 #include "benchmarks/ways/poses.hpp"
 #include "planner/bound/path_bound.hpp"
+#include "planner/mission/mission.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::path_bound {
@@ -188,6 +190,58 @@ void write_poses(std::ostream& out) {
   }
 }
 
+struct PlannedKind {
+  const char* kind;
+  unsigned cases;
+  const char* what;
+};
+constexpr PlannedKind kPlannedKinds[] = {{"open", 100, "0.7 to 10 m, every second goal with a heading"},
+                                         {"corner", 100, "at most 2 m with at least 135 degrees of turning"},
+                                         {"behind", 40, "1 to 10 m behind, heading kept"},
+                                         {"obstacles", 40, "one leg among racks, doors and boxes"},
+                                         {"stops", 40, "two legs there, the stop's heading free"},
+                                         {"docking", 40, "into or out of a slot of 0.8 to 1 m"},
+                                         {"dead_end", 24, "into or out of a dead end without room to turn"}};
+
+/// Plans of drawn missions against their own bounds, as `joulepath plan` states them.
+void write_plans(std::ostream& out) {
+  out << "\n## Plans and their own bounds\n\nMissions drawn by `benchmarks/ways/joint_cases.hpp`, planned by "
+         "the "
+         "program; its energy less the bound, relative to that energy. Part: what the program names as the "
+         "bound's "
+         "weakest one, in plans.\n\n| kind | missions | plans | below the bound | gap, median | 95 % | "
+         "largest | "
+         "part: line | headings | corners | without a bound "
+         "|\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+  const ways::JointFloors floors;
+  for (const auto& [kind, cases, what] : kPlannedKinds) {
+    std::vector<double> gaps;
+    long exceptions = 0, without = 0;
+    std::map<PathBound::Part, long> parts;
+    for (unsigned k = 0; k < cases; ++k) {
+      const ways::JointCase one = ways::joint_case(floors, kind, 11, k);
+      const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .path_bound = true};
+      const Plan plan = plan_mission(one.mission, one.world->world, options, &one.world->space);
+      if (plan.status > SolveStatus::feasible) continue;
+      if (!plan.path_bound || !plan.path_bound->energy_J) {
+        ++without, gaps.push_back(kNoLimit);
+        continue;
+      }
+      exceptions += *plan.path_bound->energy_J > plan.energy.total_J();
+      gaps.push_back(100 * (1 - *plan.path_bound->energy_J / plan.energy.total_J()));
+      ++parts[plan.path_bound->part];
+    }
+    const std::size_t plans = gaps.size();
+    std::erase(gaps, kNoLimit);
+    out << "| " << what << " | " << cases << " | " << plans << " | " << exceptions;
+    for (const double at : {0.5, 0.95, 1.0})
+      out << " | " << text(gaps.empty() ? kNoLimit : share(gaps, at), 1) << " %";
+    for (const auto part : {PathBound::Part::line, PathBound::Part::headings, PathBound::Part::corners})
+      out << " | " << parts[part];
+    out << " | " << without << " |\n";
+  }
+}
+
 PowerForm nomad_form() {
   const Robot robot = read_robot("scenarios/robots/nomad_super_scout.yaml");
   return power_form(make_plant(robot), *robot.limits, 0);
@@ -233,6 +287,7 @@ int main(int count, char** words) {
   write_motions(out, std::atoi(words[2]));
   write_own_poses(out, std::atoi(words[2]) / 100);
   write_poses(out);
+  write_plans(out);
   write_lines(out);
   write_tables(out);
   return 0;

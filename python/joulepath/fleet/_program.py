@@ -9,7 +9,7 @@ import sys
 from pathlib import Path as FilePath
 
 from .._errors import ConfigError, refused
-from . import plan, study
+from . import FleetPlan, plan, study
 
 DONE, NO_SCHEDULE, BAD_INPUT = 0, 1, 2
 
@@ -33,14 +33,28 @@ def main(words: list[str]) -> int:
     if line.json:
         print(json.dumps(found.json, indent=2))
     elif not line.quiet:
-        print(f"{found.status}: {found.cost_J:.1f} J, bound {found.bound_J:.1f} J, gap {found.gap_percent:.2f} %"
-              if found.schedule else f"infeasible: {found.json['reason']['says']}; what works: " +
-              ("; ".join(h["says"] for h in found.help) or "nothing that was tried"))
+        print("\n".join(_answer(found)))
+        if line.out:
+            print(f"results in {line.out}: fleet.json, report.html" + (", missions/" if found.schedule else ""))
     if executions and not line.json and not line.quiet:
         from ._simulate import told
 
         print(told(executions))
     return DONE if found.schedule else NO_SCHEDULE
+
+
+def _answer(found: FleetPlan) -> list[str]:
+    """The cost and what each robot does, or the reason why there is no schedule."""
+    content = found.json
+    if not found.schedule:
+        return [f"infeasible: {content['reason']['says']}; what works: " + ("; ".join(h["says"] for h in found.help) or "nothing that was tried")]
+    lines = [f"{found.status}: {found.cost_J:.1f} J, bound {found.bound_J:.1f} J, gap {found.gap_percent:.2f} %"]
+    for robot in content["robots"]:
+        counts = {what: sum(item["does"] == what for item in robot["timeline"]) for what in ("mission", "charge")}
+        told = [f"{count} {what}{'' if count == 1 else 's'}" for what, count in counts.items()]
+        lines.append(f"{robot['name']}: " + (f"{', '.join(told)}, until {robot['timeline'][-1]['to_s']} s" if any(counts.values()) else "stays"))
+    late = [mission["late_s"] for mission in content["missions"] if mission["late_s"]]
+    return lines + ([f"{len(late)} of {len(content['missions'])} missions late, {sum(late)} s in all"] if late else [])
 
 
 def _study(line: argparse.Namespace) -> int:
@@ -70,7 +84,7 @@ def _numbers(text: str) -> list[str | int]:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="joulepath fleet", allow_abbrev=False, description="Who drives what, when and where to charge.")
     parser.add_argument("fleet", metavar="FLEET", help="fleet file")
-    parser.add_argument("--out", help="directory for fleet.json, report.html and missions/")
+    parser.add_argument("--out", help="directory for fleet.json, report.html and missions/; without it nothing is written")
     parser.add_argument("--force", action="store_true", help="overwrite files of an earlier plan")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=8, help="interleaved searches of CP-SAT")
