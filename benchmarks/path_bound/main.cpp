@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "benchmarks/path_bound/judge_robot.hpp"
@@ -190,18 +191,55 @@ void write_poses(std::ostream& out) {
   }
 }
 
+/// A pose at a distance along x, and the least energy that two other searches found for it.
+struct OtherPose {
+  double reach_m, start_deg, goal_deg, best_J;
+};
+constexpr OtherPose kOtherPoses[] = {
+    {1, 0, 90, 46.81},   {2, 0, -135, 73.32},  {3, 0, 180, 96.84},    {4, 0, -60, 100.28},
+    {6, 0, 120, 142.87}, {8, 0, -30, 170.42},  {10, 0, 150, 217.80},  {5, 0, -15, 116.87},
+    {1, -45, 45, 42.12}, {1.5, 90, 90, 65.42}, {2, 0, 180, 78.17},    {3, -30, -90, 86.50},
+    {4, 20, 20, 99.29},  {5, -90, 90, 124.42}, {7, 120, -30, 161.04}, {9.5, -60, 60, 199.32}};
+
+/// Poses whose energies come from other programs.
+void write_other_poses(std::ostream& out) {
+  out << "\n## Poses of other searches\n\nOpen floor; the energy is the least of a brute-force search and of "
+         "a "
+         "joint program of path and speed, both without this planner.\n\n| distance | headings at start and "
+         "goal | "
+         "least energy known | line alone: gap | with headings: gap |\n|---:|---:|---:|---:|---:|\n";
+  const ways::World world = ways::make_world("empty");
+  const Plant plant = make_plant(world.world.robot);
+  LegBounds bounds(plant, world.world.robot, nullptr);
+  std::vector<double> line_gaps, gaps;
+  for (const auto& [reach_m, start_deg, goal_deg, best_J] : kOtherPoses) {
+    constexpr double kDegree_rad = std::numbers::pi / 180;
+    LegEnds ends{.goal_m = {reach_m, 0}, .cost_at_most_J = 1.2 * best_J};
+    line_gaps.push_back(100 * (1 - bounds.find(ends, 0.0).cost_J / best_J));
+    ends.start_rad = start_deg * kDegree_rad, ends.goal_rad = goal_deg * kDegree_rad;
+    gaps.push_back(100 * (1 - bounds.find(ends, 0.0).cost_J / best_J));
+    out << "| " << text(reach_m, 1) << " m | " << text(start_deg, 0) << ", " << text(goal_deg, 0) << " deg | "
+        << text(best_J, 2) << " J | " << text(line_gaps.back(), 1) << " % | " << text(gaps.back(), 1)
+        << " % |\n";
+  }
+  out << "| median | | | " << text(share(line_gaps, 0.5), 1) << " % | " << text(share(gaps, 0.5), 1)
+      << " % |\n";
+}
+
 struct PlannedKind {
   const char* kind;
   unsigned cases;
   const char* what;
+  bool in_reverse;
 };
-constexpr PlannedKind kPlannedKinds[] = {{"open", 100, "0.7 to 10 m, every second goal with a heading"},
-                                         {"corner", 100, "at most 2 m with at least 135 degrees of turning"},
-                                         {"behind", 40, "1 to 10 m behind, heading kept"},
-                                         {"obstacles", 40, "one leg among racks, doors and boxes"},
-                                         {"stops", 40, "two legs there, the stop's heading free"},
-                                         {"docking", 40, "into or out of a slot of 0.8 to 1 m"},
-                                         {"dead_end", 24, "into or out of a dead end without room to turn"}};
+constexpr PlannedKind kPlannedKinds[] = {
+    {"open", 100, "0.7 to 10 m, every second goal with a heading", false},
+    {"corner", 100, "at most 2 m with at least 135 degrees of turning", false},
+    {"behind", 40, "1 to 10 m behind, heading kept, in reverse or forward", true},
+    {"obstacles", 40, "one leg among racks, doors and boxes", false},
+    {"stops", 40, "two legs there, the stop's heading free", false},
+    {"docking", 40, "into or out of a slot of 0.8 to 1 m, in reverse or forward", true},
+    {"dead_end", 24, "into or out of a dead end without room to turn, in reverse or forward", true}};
 
 /// Plans of drawn missions against their own bounds, as `joulepath plan` states them.
 void write_plans(std::ostream& out) {
@@ -214,14 +252,16 @@ void write_plans(std::ostream& out) {
          "part: line | headings | corners | without a bound "
          "|\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
   const ways::JointFloors floors;
-  for (const auto& [kind, cases, what] : kPlannedKinds) {
+  for (const auto& [kind, cases, what, in_reverse] : kPlannedKinds) {
     std::vector<double> gaps;
     long exceptions = 0, without = 0;
     std::map<PathBound::Part, long> parts;
     for (unsigned k = 0; k < cases; ++k) {
       const ways::JointCase one = ways::joint_case(floors, kind, 11, k);
+      MissionWorld world = one.world->world;
+      if (in_reverse) world.robot.limits->reverse_speed_m_s = world.robot.limits->speed_m_s;
       const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .path_bound = true};
-      const Plan plan = plan_mission(one.mission, one.world->world, options, &one.world->space);
+      const Plan plan = plan_mission(one.mission, world, options, &one.world->space);
       if (plan.status > SolveStatus::feasible) continue;
       if (!plan.path_bound || !plan.path_bound->energy_J) {
         ++without, gaps.push_back(kNoLimit);
@@ -235,7 +275,7 @@ void write_plans(std::ostream& out) {
     std::erase(gaps, kNoLimit);
     out << "| " << what << " | " << cases << " | " << plans << " | " << exceptions;
     for (const double at : {0.5, 0.95, 1.0})
-      out << " | " << text(gaps.empty() ? kNoLimit : share(gaps, at), 1) << " %";
+      out << " | " << (gaps.empty() ? "-" : text(share(gaps, at), 1) + " %");
     for (const auto part : {PathBound::Part::line, PathBound::Part::headings, PathBound::Part::corners})
       out << " | " << parts[part];
     out << " | " << without << " |\n";
@@ -287,6 +327,7 @@ int main(int count, char** words) {
   write_motions(out, std::atoi(words[2]));
   write_own_poses(out, std::atoi(words[2]) / 100);
   write_poses(out);
+  write_other_poses(out);
   write_plans(out);
   write_lines(out);
   write_tables(out);
