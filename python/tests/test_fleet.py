@@ -409,6 +409,17 @@ def test_more_friction_takes_more_energy_and_the_rule_keeps_the_reserve(planned)
     assert planned.json["executions"][0]["runs"] == 20
 
 
+def test_the_answer_counts_what_each_robot_does(planned):
+    from joulepath.fleet._program import _answer
+
+    first, *robots = _answer(planned)
+    assert first.startswith(f"{planned.status}: {planned.cost_J:.1f} J")
+    counts = [re.match(r"(\w+): (?:(\d+) missions?, (\d+) charges?, until (\d+) s|stays)$", line).groups() for line in robots]
+    assert sum(int(missions or 0) for _, missions, _, _ in counts) == len(planned.json["missions"])
+    assert sum(int(charges or 0) for _, _, charges, _ in counts) == sum(len(charger["visits"]) for charger in planned.json["chargers"])
+    assert max(int(until or 0) for *_, until in counts) == max(item["to_s"] for robot in planned.json["robots"] for item in robot["timeline"])
+
+
 def test_a_late_mission_says_how_its_robot_spent_the_time(tmp_path):
     text = GOOD.read_text().replace("map: map.yaml", f"map: {GOOD.parent / 'map.yaml'}").replace("robot: robot.yaml", f"robot: {GOOD.parent / 'robot.yaml'}")
     (tmp_path / "fleet.yaml").write_text(text.replace("ready_s: 30, due_s: 600", "ready_s: 30, due_s: 31"))
