@@ -51,6 +51,11 @@ def commits_of(file):
     return sorted(word for word in words if git("rev-parse", "--verify", "--quiet", word + "^{commit}"))
 
 
+def has_history(index):
+    """Whether this is a whole clone, rather than an unpacked archive, a shallow clone or a repository of its own."""
+    return git("rev-parse", "--is-shallow-repository") == "false" and any(commits_of(result["file"]) for result in index.values())
+
+
 def age(result):
     """Commits to the result's inputs since the oldest commit that its file names; None where it names none."""
     return max((int(git("rev-list", "--count", f"{commit}..HEAD", "--", *result["inputs"]))
@@ -147,7 +152,7 @@ def main(arguments):
         case ["check", "figures"]:
             return report([*wrong_figures(index, figures)])
         case ["check", "ages"]:
-            if git("rev-parse", "--is-shallow-repository") != "false":
+            if not has_history(index):
                 return 77
             return report([*old_results(index, figures, most_changes)])
         case _:
