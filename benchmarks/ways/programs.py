@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Plans of two programs on the same missions: CPU time and energies, as Markdown.
 
-usage: programs.py FOLDER OLD_PROGRAM NEW_PROGRAM NOTE [LEGS [SEED]]
-Missions of LEGS legs (2) on three floors with three payloads; every second one names the headings at its stops.
+usage: programs.py FOLDER OLD_PROGRAM NEW_PROGRAM NOTE LEGS SEED
+Missions of LEGS legs on three floors with three payloads; every second one names the headings at its stops.
 """
 import json
 import math
@@ -16,7 +16,6 @@ import sys
 SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
 PAYLOADS_KG = (0, 6, 12)
 MISSIONS = 12  # per floor: each payload with and without headings, twice
-STOPS = "abcdefghijkl"
 ROOM_M = 0.45  # to the nearest obstacle about a stop
 
 
@@ -99,9 +98,10 @@ def mission_on(floor, draw, payload_kg, headings, legs):
             if 2 <= reach_m <= 14:
                 break
         stops.append(stop)
+    names = [f"stop_{k + 1}" for k in range(legs)]
     return {"robot": str(SCENARIOS / "robots/nomad_super_scout.yaml"), **floor.keys, "clearance_m": 0.05,
-            "stations": {"start": start, **dict(zip(STOPS, stops))}, "start": {"station": "start"},
-            "legs": [{"to": name, "payload_kg": payload_kg} for name in STOPS[:legs]],
+            "stations": {"start": start, **dict(zip(names, stops))}, "start": {"station": "start"},
+            "legs": [{"to": name, "payload_kg": payload_kg} for name in names],
             "objective": {"minimize": "energy"}}
 
 
@@ -133,7 +133,7 @@ def quantile(values, q):
 
 def main():
     folder, old, new, note = pathlib.Path(sys.argv[1]).resolve(), *sys.argv[2:5]
-    legs, seed = (int(word) for word in (*sys.argv[5:], *("2", "541")[len(sys.argv[5:]):]))
+    legs, seed = map(int, sys.argv[5:])
     folder.mkdir(parents=True, exist_ok=True)
     rows, spent_s = {}, {}
     for k, (floor, payload_kg, headings, mission) in enumerate(missions(folder, legs, seed)):
