@@ -9,6 +9,7 @@
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/checks/plausible.hpp"
+#include "diagnosis/checks/pose_notes.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
@@ -135,6 +136,7 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) summary.notes.push_back(note);
   std::ranges::move(motor_notes(dataset), std::back_inserter(summary.notes));
+  std::ranges::move(pose_notes(dataset), std::back_inserter(summary.notes));
   if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
   summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));

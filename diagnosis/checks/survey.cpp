@@ -6,6 +6,7 @@
 
 #include "diagnosis/checks/motor_notes.hpp"
 #include "diagnosis/checks/plausible.hpp"
+#include "diagnosis/checks/pose_notes.hpp"
 #include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
@@ -128,6 +129,7 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
         "one payload only: losses that grow with the load cannot be separated from constant ones");
   const Manoeuvres share = manoeuvres_of(signals);
   std::ranges::move(motor_notes(dataset), std::back_inserter(survey.notes));
+  std::ranges::move(pose_notes(dataset), std::back_inserter(survey.notes));
   if (never_moves(dataset))
     survey.notes.push_back(
         "no wheel turns in any run: only standby power and offsets can be seen; is it the log of a standing "

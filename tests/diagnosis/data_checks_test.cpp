@@ -10,6 +10,7 @@
 
 #include "diagnosis/checks/faults.hpp"
 #include "diagnosis/checks/motor_notes.hpp"
+#include "diagnosis/checks/pose_notes.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/log_columns.hpp"
 #include "tests/support/blind_day.hpp"
@@ -209,6 +210,41 @@ TEST(MotorNotes, OfUnsignedCurrentsAndOfAnotherClockAndOfNothingElse) {
   EXPECT_NE(motor_notes(late)[0].find("motor_voltage_right_V follows its wheel about 1.8 s late"),
             std::string::npos)
       << motor_notes(late)[0];
+}
+
+/// The pose that the wheels' speeds add up to; `start`: the share of the speed at the start of each step, the
+/// rest is that at its end.
+void replace_by_odometry(joulepath::Run& run, const Geometry& geometry, double start) {
+  Trajectory& log = run.log;
+  const auto& [left, right] = log.wheel_speed_rad_s;
+  for (std::size_t i = 1; i < log.size(); ++i) {
+    const double step_s = log.time_s[i] - log.time_s[i - 1];
+    const double to_left = geometry.wheel_radius_m.left * std::lerp(left[i], left[i - 1], start) * step_s,
+                 to_right = geometry.wheel_radius_m.right * std::lerp(right[i], right[i - 1], start) * step_s;
+    const double turned = (to_right - to_left) / (2 * geometry.half_track_m);
+    const double along = log.heading_rad[i - 1] + 0.5 * turned;
+    log.heading_rad[i] = log.heading_rad[i - 1] + turned;
+    log.position_x_m[i] = log.position_x_m[i - 1] + 0.5 * (to_left + to_right) * std::cos(along);
+    log.position_y_m[i] = log.position_y_m[i - 1] + 0.5 * (to_left + to_right) * std::sin(along);
+  }
+}
+
+TEST(PoseNotes, OfOdometryAndOfNothingElse) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const char* sound : {"none", "wheel_slip --size 0.02", "time_misalignment --size 0.12"})
+    EXPECT_TRUE(pose_notes(twelve_runs(std::string("--effect ") + sound + " --seed 71")).empty()) << sound;
+  const Dataset day = twelve_runs("--effect none --seed 71");
+  for (const double start : {0.0, 0.5, 1.0}) {
+    Dataset odometry = day;
+    replace_by_odometry(odometry.runs[3], day.robot.geometry, start);
+    const std::vector<std::string> notes = pose_notes(odometry);
+    ASSERT_EQ(notes.size(), 1u) << start;
+    EXPECT_NE(notes[0].find(day.runs[3].name + ": position_x_m, position_y_m and heading_rad"),
+              std::string::npos)
+        << notes[0];
+    odometry.runs[3].log.heading_rad = day.runs[3].log.heading_rad;  // that of a gyro
+    EXPECT_EQ(pose_notes(odometry).size(), 1u) << start;
+  }
 }
 
 /// No run may hide a wrong current behind the freedom that its own laws have: the other runs take it away.
