@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kDraws = 4000;  ///< of one sample; more where the confidence is near 1
 constexpr double kFailuresSeen = 45;  ///< draws that fail at the asked confidence, at least
 constexpr int kRounds = 8, kTrials = 2;
+constexpr double kRoughly = 1e-2;  ///< accuracy of plans that only serve to find margins
 constexpr double kClose = 0.006;  ///< share of draws that a plan may keep beyond its aim
 /// The plan without margins and each trial are judged once: together they are wrong with at most 5 %.
 constexpr double kErrorOfOne = 0.05 / (1 + kTrials);
@@ -133,6 +134,7 @@ class ConfidentPlanner {
   PlanOptions quick() const {
     PlanOptions options = options_;
     options.solver = SolverChoice::fast;
+    options.accuracy = std::max(options.accuracy, kRoughly);
     return options;
   }
 

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kReach = 6.0;  ///< of the sum of all one-sigma effects: what a place may come to
+constexpr double kReach = 6.0;  ///< sigmas of a use, or of the difference of two, that no draw exceeds
 
 }  // namespace
 
@@ -36,14 +36,14 @@ const std::vector<ForceDemands::Row>& ForceDemands::rows() {
 }
 
 ForceDemands::ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant,
-                           const ShiftedPlants& shifted)
+                           const ShiftedPlants& shifted, const Eigen::MatrixXd& factor)
     : plan_(plan), plant_(plant), linear_(rows().size()) {
   for (const LegPlan& leg : plan.legs)
     limits_.push_back(limits_between_payloads(robot, leg.payload.from_kg, leg.payload.to_kg));
   std::vector<std::vector<Place>> on_leg(plan.legs.size());
   for (Place& place : all_places()) on_leg[place.leg].push_back(std::move(place));
   for (std::size_t leg = 0; leg < on_leg.size(); ++leg)
-    if (!on_leg[leg].empty()) linearize(leg, shifted, on_leg[leg]);
+    if (!on_leg[leg].empty()) linearize(leg, shifted, factor, on_leg[leg]);
 }
 
 Limits ForceDemands::limits_on(std::size_t leg, const Plant& plant) const {
@@ -98,7 +98,7 @@ Eigen::MatrixXd ForceDemands::uses_by(const Plant& plant, std::size_t leg,
   return uses;
 }
 
-void ForceDemands::linearize(std::size_t leg, const ShiftedPlants& shifted,
+void ForceDemands::linearize(std::size_t leg, const ShiftedPlants& shifted, const Eigen::MatrixXd& factor,
                              const std::vector<Place>& places) {
   const Eigen::MatrixXd use = uses_by(plant_, leg, places);
   std::vector<Eigen::MatrixXd> slopes;
@@ -106,73 +106,78 @@ void ForceDemands::linearize(std::size_t leg, const ShiftedPlants& shifted,
     slopes.emplace_back(0.5 * (uses_by(more, leg, places) - uses_by(less, leg, places)));
   const std::size_t first = places_.size();
   places_.insert(places_.end(), places.begin(), places.end());
-  for (std::size_t r = 0; r < rows().size(); ++r) {
-    double& most = nominal_[rows()[r].limit];
-    most = std::max(most, use.row(static_cast<Eigen::Index>(r)).maxCoeff());
-    append_critical(r, first, use, slopes);
+  for (std::size_t i = 0; i < rows().size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double& most = nominal_[rows()[i].limit];
+    most = std::max(most, use.row(row).maxCoeff());
+    Eigen::MatrixXd slope(use.cols(), std::ssize(slopes));
+    for (Eigen::Index e = 0; e < slope.cols(); ++e)
+      slope.col(e) = slopes[static_cast<std::size_t>(e)].row(row).transpose();
+    append_critical(linear_[i], first, use.row(row).transpose(), slope, factor);
   }
 }
 
-void ForceDemands::append_critical(std::size_t row, std::size_t first_place, const Eigen::MatrixXd& use,
-                                   const std::vector<Eigen::MatrixXd>& slopes) {
-  const auto r = static_cast<Eigen::Index>(row);
-  const auto reach = [&](Eigen::Index k) {
-    double sum = 0;
-    for (const Eigen::MatrixXd& slope : slopes) sum += std::abs(slope(r, k));
-    return kReach * sum;
+void ForceDemands::append_critical(Linear& linear, std::size_t first_place, const Eigen::VectorXd& use,
+                                   const Eigen::MatrixXd& slope, const Eigen::MatrixXd& factor) {
+  const Eigen::MatrixXd drawn = slope * factor;
+  const auto stretch = [&](Eigen::Index k) {
+    return places_[first_place + static_cast<std::size_t>(k)].stretch;
   };
-  Linear& linear = linear_[row];
+  const auto is_below = [&](Eigen::Index k, Eigen::Index other) {
+    return stretch(k) == stretch(other) &&
+           use[other] - use[k] >= kReach * (drawn.row(other) - drawn.row(k)).norm();
+  };
   std::vector<Eigen::Index> critical;
-  for (Eigen::Index k = 0; k < use.cols(); ++k)
-    if (!(use(r, k) + reach(k) < 1)) critical.push_back(k);
+  for (Eigen::Index k = 0; k < use.size(); ++k) {
+    if (use[k] + kReach * drawn.row(k).norm() < 1) continue;
+    if (!critical.empty() && is_below(k, critical.back())) continue;
+    while (!critical.empty() && is_below(critical.back(), k)) critical.pop_back();
+    critical.push_back(k);
+  }
   Eigen::Index at = linear.use.size();
-  linear.use.conservativeResize(at + static_cast<Eigen::Index>(critical.size()));
-  linear.slope.conservativeResize(linear.use.size(), static_cast<Eigen::Index>(slopes.size()));
+  linear.use.conservativeResize(at + std::ssize(critical));
+  linear.slope.conservativeResize(linear.use.size(), slope.cols());
   for (const Eigen::Index k : critical) {
+    const bool is_new = linear.place.empty() || places_[linear.place.back()].stretch != stretch(k);
+    if (is_new) linear.stretch_end.emplace_back();
     linear.place.push_back(first_place + static_cast<std::size_t>(k));
-    linear.use[at] = use(r, k);
-    for (std::size_t e = 0; e < slopes.size(); ++e)
-      linear.slope(at, static_cast<Eigen::Index>(e)) = slopes[e](r, k);
-    ++at;
+    linear.use[at] = use[k];
+    linear.slope.row(at) = slope.row(k);
+    linear.stretch_end.back() = ++at;
   }
 }
 
-ForceUses ForceDemands::estimate(const Eigen::VectorXd& sigmas) const {
-  ForceUses uses{};
-  for (std::size_t r = 0; r < rows().size(); ++r)
-    if (linear_[r].use.size() > 0) {
-      double& most = uses[rows()[r].limit];
-      most = std::max(most, (linear_[r].use + linear_[r].slope * sigmas).maxCoeff());
+std::vector<ForceUses> ForceDemands::estimate(const Eigen::MatrixXd& sigmas) const {
+  std::vector<ForceUses> uses(static_cast<std::size_t>(sigmas.cols()), ForceUses{});
+  for (std::size_t r = 0; r < rows().size(); ++r) {
+    if (linear_[r].place.empty()) continue;
+    const Eigen::VectorXd greatest = linear_[r].at(sigmas).colwise().maxCoeff();
+    for (std::size_t draw = 0; draw < uses.size(); ++draw) {
+      double& most = uses[draw][rows()[r].limit];
+      most = std::max(most, greatest[static_cast<Eigen::Index>(draw)]);
     }
+  }
   return uses;
 }
 
-void ForceDemands::append_greatest(std::size_t row, const Eigen::VectorXd& sigmas,
-                                   std::vector<std::size_t>& places) const {
+void ForceDemands::append_greatest(const Linear& linear, const double* use,
+                                   std::vector<std::size_t>& places) {
   constexpr std::size_t kTop = 3;
-  const Linear& linear = linear_[row];
-  if (linear.use.size() == 0) return;
-  const Eigen::VectorXd use = linear.use + linear.slope * sigmas;
-  std::array<std::size_t, kTop> top{};
-  std::size_t count = 0;
-  const auto value = [&](std::size_t k) { return use[static_cast<Eigen::Index>(k)]; };
-  for (std::size_t k = 0; k < linear.place.size(); ++k) {
-    std::size_t at = count < kTop ? count++ : kTop;
-    for (; at > 0 && value(k) > value(top[at - 1]); --at)
-      if (at < kTop) top[at] = top[at - 1];
-    if (at < kTop) top[at] = k;
-    const bool ends = k + 1 == linear.place.size() ||
-                      places_[linear.place[k + 1]].stretch != places_[linear.place[k]].stretch;
-    for (std::size_t i = 0; ends && i < count; ++i) places.push_back(linear.place[top[i]]);
-    if (ends) count = 0;
+  Eigen::Index k = 0;
+  for (const Eigen::Index end : linear.stretch_end) {
+    std::array<Eigen::Index, kTop> top{};
+    std::size_t count = 0;
+    for (; k < end; ++k) {
+      if (count == kTop && !(use[k] > use[top.back()])) continue;
+      std::size_t at = count < kTop ? count++ : kTop - 1;
+      for (; at > 0 && use[k] > use[top[at - 1]]; --at) top[at] = top[at - 1];
+      top[at] = k;
+    }
+    for (std::size_t i = 0; i < count; ++i) places.push_back(linear.place[static_cast<std::size_t>(top[i])]);
   }
 }
 
-ForceUses ForceDemands::of(const Plant& plant, const Eigen::VectorXd& sigmas) const {
-  std::vector<std::size_t> places;
-  for (std::size_t r = 0; r < rows().size(); ++r) append_greatest(r, sigmas, places);
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+ForceUses ForceDemands::uses_at(const std::vector<std::size_t>& places, const Plant& plant) const {
   ForceUses uses{};
   for (std::size_t i = 0; i < places.size();) {
     const std::size_t leg = places_[places[i]].leg;
@@ -185,6 +190,25 @@ ForceUses ForceDemands::of(const Plant& plant, const Eigen::VectorXd& sigmas) co
         most = std::max(most, use_of(row, state, limits));
       }
     }
+  }
+  return uses;
+}
+
+std::vector<ForceUses> ForceDemands::of(const std::vector<Plant>& plants,
+                                        const Eigen::MatrixXd& sigmas) const {
+  std::vector<std::vector<std::size_t>> places(plants.size());
+  for (const Linear& linear : linear_) {
+    if (linear.place.empty()) continue;
+    const Eigen::MatrixXd use = linear.at(sigmas);
+    for (std::size_t draw = 0; draw < plants.size(); ++draw)
+      append_greatest(linear, use.col(static_cast<Eigen::Index>(draw)).data(), places[draw]);
+  }
+  std::vector<ForceUses> uses;
+  for (std::size_t draw = 0; draw < plants.size(); ++draw) {
+    std::vector<std::size_t>& of_draw = places[draw];
+    std::sort(of_draw.begin(), of_draw.end());
+    of_draw.erase(std::unique(of_draw.begin(), of_draw.end()), of_draw.end());
+    uses.push_back(uses_at(of_draw, plants[draw]));
   }
   return uses;
 }

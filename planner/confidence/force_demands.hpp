@@ -26,22 +26,25 @@ using ForceUses = std::array<double, kForceLimits>;
 using ShiftedPlants = std::vector<std::array<Plant, 2>>;
 
 /// What a planned motion, tracked exactly, uses of the limits of motors, battery and tires, for other plants
-/// than the planned one. Looked at are both ends and the middle of every segment that six times the effect of
-/// all sigmas may saturate. Open-circuit voltages and winding resistances are those of the plan's legs. It
-/// keeps references to plan and plant.
+/// than the planned one. Looked at are both ends and the middle of every segment that errors up to six sigmas
+/// of its use may saturate, but for those below another one, whatever such errors are. Open-circuit voltages
+/// and winding resistances are those of the plan's legs. It keeps references to plan and plant.
 class ForceDemands {
  public:
-  ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ShiftedPlants& shifted);
+  /// `factor` times independent standard normal numbers: errors in sigmas as they are drawn.
+  ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ShiftedPlants& shifted,
+               const Eigen::MatrixXd& factor);
 
   /// Greatest uses by the nominal plant.
   const ForceUses& nominal() const { return nominal_; }
 
-  /// Greatest uses by derivatives, of errors in sigmas.
-  [[nodiscard]] ForceUses estimate(const Eigen::VectorXd& sigmas) const;
+  /// Greatest uses by derivatives for each column of errors in sigmas.
+  [[nodiscard]] std::vector<ForceUses> estimate(const Eigen::MatrixXd& sigmas) const;
 
-  /// Greatest uses by a plant: the model at the places where the derivatives find the greatest ones of each
-  /// limit and side, on each stretch.
-  [[nodiscard]] ForceUses of(const Plant& plant, const Eigen::VectorXd& sigmas) const;
+  /// Greatest uses by plants, whose errors are the columns of `sigmas`: the model at the places where the
+  /// derivatives find the greatest ones of each limit and side, on each stretch.
+  [[nodiscard]] std::vector<ForceUses> of(const std::vector<Plant>& plants,
+                                          const Eigen::MatrixXd& sigmas) const;
 
   /// The limits of a leg for a plant, the battery's own included.
   [[nodiscard]] Limits limits_on(std::size_t leg, const Plant& plant) const;
@@ -63,8 +66,11 @@ class ForceDemands {
   /// The critical places of one row: uses, and their changes with one sigma of each error (a row each).
   struct Linear {
     std::vector<std::size_t> place{};
+    std::vector<Eigen::Index> stretch_end{};  ///< the first place after each stretch
     Eigen::VectorXd use{};
-    Eigen::MatrixXd slope{};
+    Eigen::MatrixXd slope{};  ///< a row each
+
+    Eigen::MatrixXd at(const Eigen::MatrixXd& sigmas) const { return (slope * sigmas).colwise() + use; }
   };
 
   std::vector<Place> all_places() const;
@@ -74,12 +80,13 @@ class ForceDemands {
   }
   /// Uses of each row at a leg's places, by a plant.
   Eigen::MatrixXd uses_by(const Plant& plant, std::size_t leg, const std::vector<Place>& places) const;
-  void linearize(std::size_t leg, const ShiftedPlants& shifted, const std::vector<Place>& places);
-  void append_critical(std::size_t row, std::size_t first_place, const Eigen::MatrixXd& use,
-                       const std::vector<Eigen::MatrixXd>& slopes);
-  /// The greatest estimated uses of a row on each stretch.
-  void append_greatest(std::size_t row, const Eigen::VectorXd& sigmas,
-                       std::vector<std::size_t>& places) const;
+  void linearize(std::size_t leg, const ShiftedPlants& shifted, const Eigen::MatrixXd& factor,
+                 const std::vector<Place>& places);
+  void append_critical(Linear& linear, std::size_t first_place, const Eigen::VectorXd& use,
+                       const Eigen::MatrixXd& slope, const Eigen::MatrixXd& factor);
+  /// The places of the greatest estimated uses on each stretch.
+  static void append_greatest(const Linear& linear, const double* use, std::vector<std::size_t>& places);
+  ForceUses uses_at(const std::vector<std::size_t>& places, const Plant& plant) const;
 
   const Plan& plan_;
   const Plant& plant_;

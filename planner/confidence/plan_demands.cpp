@@ -13,7 +13,7 @@ PlanDemands::PlanDemands(const Plan& plan, const Robot& robot, const Plant& plan
       charge_(charge),
       energy_(plan, plant),
       model_friction_Nm_(model_friction_Nm(robot.model_energy_sigma().value_or(0.0))),
-      forces_(plan, robot, plant, shifted()) {
+      forces_(plan, robot, plant, shifted(), error_factor(plant.robot)) {
   if (!std::isfinite(robot.battery.capacity_Wh)) return;
   const ShiftedPlants plants = shifted();
   fraction_ = energy_.least_fraction(plant, charge_);
@@ -53,18 +53,26 @@ double PlanDemands::estimated_fraction(const Eigen::VectorXd& sigmas) const {
   return fraction_per_sigma_.size() > 0 ? fraction_ + fraction_per_sigma_.dot(sigmas) : fraction_;
 }
 
-PlanDemand PlanDemands::estimate(const Eigen::VectorXd& sigmas) const {
-  return {forces_.estimate(sigmas), estimated_fraction(sigmas)};
+std::vector<PlanDemand> PlanDemands::estimate(const Eigen::MatrixXd& sigmas) const {
+  std::vector<PlanDemand> demands;
+  for (const ForceUses& use : forces_.estimate(sigmas))
+    demands.push_back({use, estimated_fraction(sigmas.col(std::ssize(demands)))});
+  return demands;
 }
 
-PlanDemand PlanDemands::of(const PlantDraw& draw) const {
+std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& sigmas, const PlantDraws& draws) const {
   constexpr double kDoubt = 0.5;  // of the change by derivatives: what it may be wrong by
-  const Plant plant = plant_of(draw);
-  PlanDemand demand{forces_.of(plant, draw.sigmas), estimated_fraction(draw.sigmas)};
-  if (demand.least_fraction - kDoubt * std::abs(demand.least_fraction - fraction_) <
-      robot_.battery.reserve_fraction)
-    demand.least_fraction = energy_.least_fraction(plant, charge_);
-  return demand;
+  std::vector<Plant> plants;
+  for (const auto& column : sigmas.colwise()) plants.push_back(plant_of(draws.draw_of(column)));
+  std::vector<PlanDemand> demands;
+  for (const ForceUses& use : forces_.of(plants, sigmas)) {
+    const Plant& plant = plants[demands.size()];
+    PlanDemand& demand = demands.emplace_back(use, estimated_fraction(sigmas.col(std::ssize(demands))));
+    if (demand.least_fraction - kDoubt * std::abs(demand.least_fraction - fraction_) <
+        robot_.battery.reserve_fraction)
+      demand.least_fraction = energy_.least_fraction(plant, charge_);
+  }
+  return demands;
 }
 
 }  // namespace joulepath

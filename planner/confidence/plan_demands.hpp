@@ -23,11 +23,12 @@ class PlanDemands {
 
   [[nodiscard]] PlanDemand nominal() const { return {forces_.nominal(), fraction_}; }
 
-  /// By derivatives, of errors in sigmas.
-  [[nodiscard]] PlanDemand estimate(const Eigen::VectorXd& sigmas) const;
+  /// By derivatives, for each column of errors in sigmas.
+  [[nodiscard]] std::vector<PlanDemand> estimate(const Eigen::MatrixXd& sigmas) const;
 
-  /// By the model; the state of charge by derivatives where they leave no doubt that the reserve is kept.
-  [[nodiscard]] PlanDemand of(const PlantDraw& draw) const;
+  /// By the model, for the plants of such columns; the state of charge by derivatives where they leave no
+  /// doubt that the reserve is kept.
+  [[nodiscard]] std::vector<PlanDemand> of(const Eigen::MatrixXd& sigmas, const PlantDraws& draws) const;
 
   /// The plant of a draw, the model's own error included.
   [[nodiscard]] Plant plant_of(const PlantDraw& draw) const {

@@ -15,13 +15,18 @@ PlanDemands PromiseJudge::demands_of(const Plan& plan) const {
            .to_fraction = mission_.charging ? mission_.charging->to_fraction : 0.0}};
 }
 
-template <class Next>
-Sample PromiseJudge::sample_of(const PlanDemands& demands, Next&& next) const {
-  Sample sample{.nominal = demands.nominal()};
-  for (std::size_t i = 0; i < draws_; ++i) {
-    const PlanDemand& demand = sample.drawn.emplace_back(next());
-    const bool kept = keeps_limits(demand) && keeps_reserve(demand, robot_.battery.reserve_fraction);
-    sample.kept += kept ? 1 : 0;
+template <class DemandsOfSome>
+Sample PromiseJudge::sample_of(const PlanDemand& nominal, PlantDraws& draws,
+                               const DemandsOfSome& demands_of_some) const {
+  constexpr std::size_t kTogether = 64;
+  Sample sample{.nominal = nominal};
+  while (sample.drawn.size() < draws_) {
+    const std::size_t count = std::min(kTogether, draws_ - sample.drawn.size());
+    for (const PlanDemand& demand : demands_of_some(draws.next_sigmas(count))) {
+      const bool kept = keeps_limits(demand) && keeps_reserve(demand, robot_.battery.reserve_fraction);
+      sample.kept += kept ? 1 : 0;
+      sample.drawn.push_back(demand);
+    }
   }
   return sample;
 }
@@ -29,13 +34,15 @@ Sample PromiseJudge::sample_of(const PlanDemands& demands, Next&& next) const {
 Sample PromiseJudge::estimated(const Plan& plan) const {
   const PlanDemands demands = demands_of(plan);
   PlantDraws draws(plant_, 0);
-  return sample_of(demands, [&] { return demands.estimate(draws.next_sigmas()); });
+  return sample_of(demands.nominal(), draws,
+                   [&](const Eigen::MatrixXd& sigmas) { return demands.estimate(sigmas); });
 }
 
 Sample PromiseJudge::judged(const Plan& plan, std::uint64_t seed) const {
   const PlanDemands demands = demands_of(plan);
   PlantDraws draws(plant_, seed);
-  Sample sample = sample_of(demands, [&] { return demands.of(draws.next()); });
+  Sample sample = sample_of(demands.nominal(), draws,
+                            [&](const Eigen::MatrixXd& sigmas) { return demands.of(sigmas, draws); });
   sample.seed = seed;
   return sample;
 }

@@ -35,8 +35,9 @@ class PromiseJudge {
 
  private:
   PlanDemands demands_of(const Plan& plan) const;
-  template <class Next>
-  Sample sample_of(const PlanDemands& demands, Next&& next) const;
+  /// `demands_of_some`: of errors in sigmas, a column for each draw.
+  template <class DemandsOfSome>
+  Sample sample_of(const PlanDemand& nominal, PlantDraws& draws, const DemandsOfSome& demands_of_some) const;
   const std::vector<LegRequest>& legs_of(const Plan& plan) const;
   bool has_deadline(const Plan& plan) const;
   bool arrives(const Plan& plan, const PlanDemands& demands, const PlantDraw& draw) const;

@@ -11,6 +11,7 @@
 #include "planner/cache/answer_cache.hpp"
 #include "planner/confidence/lateness.hpp"
 #include "planner/confidence/margins.hpp"
+#include "planner/confidence/plan_demands.hpp"
 #include "planner/mission/mission.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -141,7 +142,7 @@ double share_kept(const Plan& plan, const Robot& robot, int draws) {
 }
 
 /// Two limits bind at different places of two legs, one of them a bend.
-TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
+Robot uncertain_robot() {
   Robot robot = testing::nomad();
   for (const Side side : kSides) robot.motor[side].max_voltage_V = 14, robot.motor[side].max_current_A = 1.35;
   robot.limits->acceleration_m_s2 = robot.limits->deceleration_m_s2 = 3;
@@ -150,10 +151,19 @@ TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
                        {"friction_torque_Nm", 0.15},
                        {"resistance_ohm", 0.1},
                        {"model_energy", 0.0}};
-  MissionRequest mission = straight(5, soonest(0.95));
+  return robot;
+}
+
+MissionRequest straight_and_bend(Objective objective) {
+  MissionRequest mission = straight(5, std::move(objective));
   mission.legs.push_back(
       {.path = PathRequest{.bezier_m = {{{{0, 0}, {2, 0}, {4, 1}, {4, 3}}}}}, .payload = {6, 6}});
-  const Plan plan = planned_for(mission, robot);
+  return mission;
+}
+
+TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
+  const Robot robot = uncertain_robot();
+  const Plan plan = planned_for(straight_and_bend(soonest(0.95)), robot);
   ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
   ASSERT_TRUE(plan.confidence);
   EXPECT_GE(plan.confidence->limit_shares.size(), 2u);
@@ -161,6 +171,32 @@ TEST(Confidence, IsThatOfRobotsDrawnElsewhere) {
   EXPECT_NEAR(share, plan.confidence->kept, 4 * share_sigma(0.95, 1500));
   EXPECT_LT(plan.confidence->kept_without, 0.6);
   EXPECT_GT(plan.duration_s, plan.confidence->duration_without_s);
+}
+
+/// A drawn robot's greatest uses are looked for at the places that derivatives name: they are those of all
+/// places.
+TEST(Confidence, LooksWhereADrawnRobotUsesItsLimitsMost) {
+  Robot robot = uncertain_robot();
+  robot.uncertainty["model_energy"] = 0.05;
+  robot.uncertainty_correlations = {{"chassis_mass_kg", "resistance_ohm", -0.6}};
+  const Plan plan = planned_for(straight_and_bend({.minimize = Objective::Minimize::time}), robot);
+  const Plant plant = make_plant(robot);
+  const PlanDemands demands(plan, robot, plant, {});
+  PlantDraws draws(plant, 7);
+  const Eigen::MatrixXd sigmas = draws.next_sigmas(150);
+  const std::vector<PlanDemand> found = demands.of(sigmas, draws), estimated = demands.estimate(sigmas);
+  std::size_t saturated = 0;
+  for (std::size_t draw = 0; draw < found.size(); ++draw) {
+    const Plant drawn = demands.plant_of(draws.draw_of(sigmas.col(static_cast<Eigen::Index>(draw))));
+    const ForceUses all = ForceDemands(plan, robot, drawn, {}, {}).nominal();
+    for (std::size_t i = 0; i < kForceLimits; ++i) {
+      if (all[i] < 0.9) continue;
+      EXPECT_NEAR(found[draw].use[i], all[i], 2e-5) << force_limits()[i]->name << " of draw " << draw;
+      EXPECT_NEAR(estimated[draw].use[i], all[i], 0.03) << force_limits()[i]->name << " of draw " << draw;
+      saturated += all[i] > 1;
+    }
+  }
+  EXPECT_GT(saturated, 50u);
 }
 
 /// Both wheels' friction errs on its own. A start needs a per + T <= I Kt n, braking a per - T <= I Kt n,
