@@ -10,7 +10,6 @@
 #include "app/report/plain_tables.hpp"
 #include "diagnosis/values/verdict.hpp"
 #include "model/limit_table.hpp"
-#include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
 
@@ -76,11 +75,7 @@ json json_of(const Limits& limits) {
 /// The ends of the 95 % interval along the plan.
 void add_band(const char* name, const std::optional<PlanBand>& band, json& data) {
   if (!band) return;
-  std::vector<double> low = band->value, high = band->value;
-  for (std::size_t k = 0; k < low.size(); ++k) {
-    low[k] -= kNormal95 * band->sigma[k];
-    high[k] += kNormal95 * band->sigma[k];
-  }
+  const auto [low, high] = ends_95(*band);
   data["bands"][name] = {{"time_s", json_of(band->time_s)},
                          {"value", json_of(band->value)},
                          {"low", json_of(low)},

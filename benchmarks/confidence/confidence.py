@@ -240,6 +240,10 @@ def page(results, note):
         lines.append(row(f"the same, {kind}", [r for r in limited if r["kind"] == kind], "limits"))
     for name, chosen, promise in (("current or voltage", limited, "limits"), ("reserve", [r for r in results if r["binds"] == "reserve"], "reserve")):
         lines.append(row(f"{name}, by MuJoCo", [r for r in chosen if r["by_mujoco"]], promise))
+    own = lambda r: r["kept"]["reserve" if r["binds"] == "reserve" else "limits"]
+    bound = [r for r in results if not r["refused"] and r["binding"]]
+    lines += ["", f"All three together, a margin binds: kept {share_text([own(r) for r in bound])}. A plan of least energy can save nothing more for its",
+              "reserve: it keeps it more often than asked, or is refused."]
     both = [r for r in limited if not r["refused"] and "scenario_kept" in r]
     lines += ["", "| beside each other, missions that both plan | kept | longer than without margins, median |", "|---|---|---:|",
               f"| margins of the joint quantile | {share_text([r['kept']['limits'] for r in both])} | {100 * float(np.median([r['cost_s'] for r in both])):.2f} % |",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/battery_charge.hpp"
+#include "model/normal_quantiles.hpp"
 #include "model/nuisance_correlation.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
@@ -77,6 +78,13 @@ PlanBand charge_band(const PlanBand& energy, std::vector<double> value, const Ba
 }
 
 }  // namespace
+
+std::array<std::vector<double>, 2> ends_95(const PlanBand& band) {
+  std::array ends{band.value, band.value};
+  for (std::size_t k = 0; k < band.sigma.size(); ++k)
+    ends[0][k] -= kNormal95 * band.sigma[k], ends[1][k] += kNormal95 * band.sigma[k];
+  return ends;
+}
 
 PlanBands plan_bands(const Plan& plan, const Plant& plant, const std::vector<double>& times_s) {
   if (!plan.energy_sigma_J || times_s.empty()) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct PlanBand {
   std::vector<double> value{};
   std::vector<double> sigma{};
 };
+
+/// The lower and the upper ends of the 95 % intervals.
+[[nodiscard]] std::array<std::vector<double>, 2> ends_95(const PlanBand& band);
 
 /// What the robot file's `uncertainty:` says along a plan, to first order as in find_energy_sigmas(): each
 /// uncertain constant is one sigma more and less along the planned motion, the correlations count, and the

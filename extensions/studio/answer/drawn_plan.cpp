@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/limit_table.hpp"
+#include "planner/accounts/plan_bands.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/motion/limit_check.hpp"
@@ -128,6 +129,19 @@ json drawn_motion(const Plan& plan, const Plant& plant, const std::vector<double
           {"leg", t.leg},
           {"limit", std::move(limit)},
           {"limit_use", std::move(use)}};
+}
+
+json drawn_bands(const Plan& plan, const Plant& plant, const std::vector<double>& times_s) {
+  const PlanBands bands = plan_bands(plan, plant, times_s);
+  json drawn = json::object();
+  const auto add = [&](const char* column, const std::optional<PlanBand>& band) {
+    if (!band) return;
+    auto [low, high] = ends_95(*band);
+    drawn[column] = {{"time_s", band->time_s}, {"low", std::move(low)}, {"high", std::move(high)}};
+  };
+  add("battery_power_W", bands.battery_power_W);
+  add("energy_J", bands.energy_J);
+  return drawn;
 }
 
 json limit_names() {

@@ -14,6 +14,11 @@ namespace joulepath::studio {
 [[nodiscard]] nlohmann::json drawn_motion(const Plan& plan, const Plant& plant,
                                           const std::vector<double>& times_s);
 
+/// The 95 % intervals of power and energy along a valid plan, `battery_power_W` and `energy_J`, each with its
+/// own `time_s`, `low` and `high`; without those that the robot's file does not state.
+[[nodiscard]] nlohmann::json drawn_bands(const Plan& plan, const Plant& plant,
+                                         const std::vector<double>& times_s);
+
 /// The names of the limits, in the order of the index `limit`.
 [[nodiscard]] nlohmann::json limit_names();
 

@@ -155,6 +155,7 @@ std::string Session::checked_answer(const json& question) const {
     if (mode == "front")
       answer["front"] =
           front_json(plan, std::clamp<std::size_t>(question.value("points", kFrontPoints), 2, kMostPoints));
+    if (mode == "bands") answer["bands"] = drawn_bands(plan, plant, drawn_times_s(plan, samples));
     if (mode == "classics") answer["classics"] = classics_json(plan, plant, samples);
   }
   return "{\"plan\":" + plan_json_text(plan) + "," + answer.dump().substr(1);

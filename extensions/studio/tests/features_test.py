@@ -180,6 +180,22 @@ def check_classics(page):
     page.until(f"return document.querySelector('.plot canvas').toDataURL() !== {json.dumps(before)}", 10)
 
 
+def check_intervals(page):
+    power = "document.querySelectorAll('.plot canvas')[2].toDataURL()"
+    before = page.run(f"return {power}")
+    click(page, "95 %")
+    page.until(f"return {power} !== {json.dumps(before)}", 30)
+    assert "95 % interval" in page.run("return document.querySelector('.plots .legend').textContent")
+    with_interval = page.run(f"return {power}")
+    click(page, "Over distance")
+    page.until(f"return {power} !== {json.dumps(with_interval)}", 10)
+    click(page, "Over time")
+    page.until(f"return {power} === {json.dumps(with_interval)}", 10)
+    click(page, "95 %")
+    page.until(f"return {power} === {json.dumps(before)}", 10)
+    assert "95 % interval" not in page.run("return document.querySelector('.plots .legend').textContent")
+
+
 def check_front(page):
     click(page, "Compute the front")
     page.until("return studio.store.front !== null", 120)
@@ -360,7 +376,7 @@ def check_dataset(page, found):
     assert found["verdict"] in page.run("return document.getElementById('diagnosis').textContent")
 
 
-HALL = (check_limits_and_battery, check_animation, check_drag, check_collisions, check_plan_a, check_classics, check_front, check_touch, check_legs)
+HALL = (check_limits_and_battery, check_animation, check_drag, check_collisions, check_plan_a, check_classics, check_intervals, check_front, check_touch, check_legs)
 
 
 def check_all(program, folder, page):

@@ -116,6 +116,27 @@ TEST(Session, MotionEndsWithThePlansEnergyAndNamesLimitsThatBind) {
   EXPECT_TRUE(binds);
 }
 
+/// The interval at the plan's end is that of the plan's energy; a robot without uncertainty has none.
+TEST(Session, IntervalsEndWithThatOfThePlansEnergy) {
+  json question = curve_question("bands");
+  const json paths = paths_of(answer_to(curve_question("plan")));
+  question["paths"] = paths;
+  const json answer = answer_to(question), &energy = answer.at("bands").at("energy_J"),
+             &power = answer.at("bands").at("battery_power_W");
+  const json& interval = answer.at("plan").at("energy_interval_95_J");
+  EXPECT_NEAR(energy.at("low").back().get<double>(), interval[0].get<double>(), 1e-6);
+  EXPECT_NEAR(energy.at("high").back().get<double>(), interval[1].get<double>(), 1e-6);
+  EXPECT_LT(energy.at("low").back().get<double>(), 0.99 * energy.at("high").back().get<double>());
+  for (const json& band : {energy, power}) {
+    ASSERT_EQ(band.at("time_s").size(), band.at("low").size());
+    for (std::size_t row = 0; row < band.at("low").size(); ++row)
+      EXPECT_LE(band.at("low")[row].get<double>(), band.at("high")[row].get<double>());
+  }
+  question["robot"].erase("uncertainty"), question["robot"].erase("uncertainty_correlations");
+  EXPECT_EQ(answer_to(question).at("bands"), json::object());
+  EXPECT_FALSE(answer_to(curve_question("plan")).contains("bands"));
+}
+
 TEST(Session, CausesOfAClassicProfileAddUpToItsEnergy) {
   json question = room_question("classics");
   question["paths"] = paths_of(room_plan());
