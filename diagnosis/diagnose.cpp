@@ -216,6 +216,14 @@ std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const Diagnos
   return described;
 }
 
+/// A cause's probability stands beside its effect in the corrected robot.
+void state_probabilities(const std::vector<Cause>& causes, Robot& robot) {
+  for (const Cause& cause : causes)
+    for (EffectSetting& effect : robot.effects)
+      if (effect.name == cause.effect.name && effect.side == cause.effect.side)
+        effect.probability = cause.probability;
+}
+
 Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const DiagnoseOptions& options) {
   expect_steps(4);  // runs apart, conclusion, next run, isolability
   Examined examined = examine(dataset, std::move(usable), options);
@@ -242,6 +250,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
                     correction.notes,
                     {told_by_energies(dataset, correction)}});
   d.corrected_robot = correction.robot;
+  if (d.corrected_robot) state_probabilities(d.causes, *d.corrected_robot);
   d.corrected_effects = correction.effects;
   d.corrected_instruments = correction.instruments;
   d.refused_correction = correction.refused;

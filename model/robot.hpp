@@ -100,6 +100,7 @@ struct EffectSetting {
   std::map<std::string, double> parameters{};
   std::optional<Side> side{};
   std::vector<std::array<double, 4>> cells{};  ///< of a region: x_min, x_max, y_min, y_max each
+  double probability{1.0};  ///< that the robot has it: robots that are drawn for a confidence may lack it
 };
 
 /// One entry of `uncertainty_correlations:`: between the errors of two keys of `uncertainty:`.

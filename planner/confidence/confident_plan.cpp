@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kDraws = 4000;  ///< of one sample; more where the confidence is near 1
 constexpr double kFailuresSeen = 45;  ///< draws that fail at the asked confidence, at least
-constexpr int kRounds = 8, kTrials = 2;
+constexpr int kRounds = 8, kTrials = 4;
 constexpr double kRoughly = 1e-2;  ///< accuracy of plans that only serve to find margins
-constexpr double kClose = 0.006;  ///< share of draws that a plan may keep beyond its aim
+constexpr double kClose = 0.006;   ///< share of draws that a plan may keep beyond its aim
 /// The plan without margins and each trial are judged once: together they are wrong with at most 5 %.
 constexpr double kErrorOfOne = 0.05 / (1 + kTrials);
 constexpr double kDoubtSigmas = 3.3;  ///< of a sample's share, between what is asked and what is aimed at
@@ -93,8 +93,14 @@ class ConfidentPlanner {
     if (is_shown(sample)) return with_account(std::move(plain), sample);
     drive_on_ways_of(std::move(plain));
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
-      if (auto refused = find_margins()) return as_verdict(with_slack(*std::move(refused)));
+      if (trial > 0) {
+        tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
+      } else if (auto refused = find_margins()) {
+        return as_verdict(with_slack(*std::move(refused)));
+      }
       Plan plan = plan_with(margins_, options_);
+      if (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
+        plan = plan_with(margins_, options_);
       if (!is_driven(plan)) return as_verdict(std::move(plan));
       if (has_fixed_ways_) take_choices(plan, chosen_);
       sample = judge_.judged(plan, ++seed_);
@@ -203,6 +209,13 @@ class ConfidentPlanner {
     margins_ = planner.margins_;
     seed_ = planner.seed_;
     return true;
+  }
+
+  /// What the model says of a plan whose margins were found by derivatives and are not enough.
+  void tighten(const Margins& by_model) {
+    for (std::size_t i = 0; i < kForceLimits; ++i)
+      margins_.share[i] = std::min(margins_.share[i], by_model.share[i]);
+    margins_.reserve = std::max(margins_.reserve, by_model.reserve);
   }
 
   double reserve() const { return world_.robot.battery.reserve_fraction; }

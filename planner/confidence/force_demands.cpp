@@ -9,7 +9,16 @@
 namespace joulepath {
 namespace {
 
-constexpr double kReach = 6.0;  ///< sigmas of a use, or of the difference of two, that no draw exceeds
+constexpr double kSmallUse = 0.05;  ///< to which a change is relative at least
+constexpr double kSmallChange = 1e-6;
+constexpr double kCrossing = 1.3;  ///< of the nominal use, the mean of both sides: the force changes its sign
+
+/// Changes with one sigma, from the uses (>= 0) with one sigma more and one less. Where the force changes its
+/// sign, the use falls and rises again: the change is that of the force.
+double change_of(double use, double more, double less) {
+  const double half = 0.5 * (more - less), mean = 0.5 * (more + less);
+  return mean > kCrossing * use + kSmallChange ? std::copysign(mean, half) : half;
+}
 
 }  // namespace
 
@@ -36,14 +45,14 @@ const std::vector<ForceDemands::Row>& ForceDemands::rows() {
 }
 
 ForceDemands::ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant,
-                           const ShiftedPlants& shifted, const Eigen::MatrixXd& factor)
+                           const ErrorPlants& errors)
     : plan_(plan), plant_(plant), linear_(rows().size()) {
   for (const LegPlan& leg : plan.legs)
     limits_.push_back(limits_between_payloads(robot, leg.payload.from_kg, leg.payload.to_kg));
   std::vector<std::vector<Place>> on_leg(plan.legs.size());
   for (Place& place : all_places()) on_leg[place.leg].push_back(std::move(place));
   for (std::size_t leg = 0; leg < on_leg.size(); ++leg)
-    if (!on_leg[leg].empty()) linearize(leg, shifted, factor, on_leg[leg]);
+    if (!on_leg[leg].empty()) linearize(leg, errors, on_leg[leg]);
 }
 
 Limits ForceDemands::limits_on(std::size_t leg, const Plant& plant) const {
@@ -98,60 +107,80 @@ Eigen::MatrixXd ForceDemands::uses_by(const Plant& plant, std::size_t leg,
   return uses;
 }
 
-void ForceDemands::linearize(std::size_t leg, const ShiftedPlants& shifted, const Eigen::MatrixXd& factor,
-                             const std::vector<Place>& places) {
+void ForceDemands::linearize(std::size_t leg, const ErrorPlants& errors, const std::vector<Place>& places) {
   const Eigen::MatrixXd use = uses_by(plant_, leg, places);
-  std::vector<Eigen::MatrixXd> slopes;
-  for (const auto& [more, less] : shifted)
-    slopes.emplace_back(0.5 * (uses_by(more, leg, places) - uses_by(less, leg, places)));
+  std::vector<std::array<Eigen::MatrixXd, 2>> near, far;
+  for (const auto& [more, less] : errors.near)
+    near.push_back({uses_by(more, leg, places), uses_by(less, leg, places)});
+  for (const auto& [more, less] : errors.far)
+    far.push_back({uses_by(more, leg, places), uses_by(less, leg, places)});
   const std::size_t first = places_.size();
   places_.insert(places_.end(), places.begin(), places.end());
   for (std::size_t i = 0; i < rows().size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     double& most = nominal_[rows()[i].limit];
     most = std::max(most, use.row(row).maxCoeff());
-    Eigen::MatrixXd slope(use.cols(), std::ssize(slopes));
-    for (Eigen::Index e = 0; e < slope.cols(); ++e)
-      slope.col(e) = slopes[static_cast<std::size_t>(e)].row(row).transpose();
-    append_critical(linear_[i], first, use.row(row).transpose(), slope, factor);
+    Uses uses{.nominal = use.row(row).transpose(),
+              .slope = Eigen::MatrixXd(use.cols(), std::ssize(near)),
+              .far = Eigen::MatrixXd(use.cols(), 2 * std::ssize(far))};
+    for (std::size_t e = 0; e < near.size(); ++e) {
+      const auto column = static_cast<Eigen::Index>(e);
+      for (Eigen::Index k = 0; k < use.cols(); ++k)
+        uses.slope(k, column) = change_of(uses.nominal[k], near[e][0](row, k), near[e][1](row, k));
+      for (const Eigen::Index side : {0, 1})
+        uses.far.col(2 * column + side) = far[e][static_cast<std::size_t>(side)].row(row).transpose();
+    }
+    append_critical(linear_[i], first, uses, errors.factor);
   }
 }
 
-void ForceDemands::append_critical(Linear& linear, std::size_t first_place, const Eigen::VectorXd& use,
-                                   const Eigen::MatrixXd& slope, const Eigen::MatrixXd& factor) {
-  const Eigen::MatrixXd drawn = slope * factor;
+void ForceDemands::append_critical(Linear& linear, std::size_t first_place, const Uses& uses,
+                                   const Eigen::MatrixXd& factor) {
+  const Eigen::VectorXd& use = uses.nominal;
+  const Eigen::MatrixXd drawn = uses.slope * factor;
   const auto stretch = [&](Eigen::Index k) {
     return places_[first_place + static_cast<std::size_t>(k)].stretch;
   };
+  const auto may_saturate = [&](Eigen::Index k) {
+    double growth = 1;
+    for (Eigen::Index e = 0; e < uses.far.cols(); e += 2)
+      growth *= 1 + std::max(0.0, uses.far.row(k).segment(e, 2).maxCoeff() - use[k]) / (use[k] + kSmallUse);
+    return growth * (use[k] + kSmallUse) >= 1;
+  };
   const auto is_below = [&](Eigen::Index k, Eigen::Index other) {
     return stretch(k) == stretch(other) &&
-           use[other] - use[k] >= kReach * (drawn.row(other) - drawn.row(k)).norm();
+           use[other] - use[k] >= kReach * (drawn.row(other) - drawn.row(k)).norm() &&
+           (uses.far.row(k).array() <= uses.far.row(other).array()).all();
   };
   std::vector<Eigen::Index> critical;
   for (Eigen::Index k = 0; k < use.size(); ++k) {
-    if (use[k] + kReach * drawn.row(k).norm() < 1) continue;
+    if (!may_saturate(k)) continue;
     if (!critical.empty() && is_below(k, critical.back())) continue;
     while (!critical.empty() && is_below(critical.back(), k)) critical.pop_back();
     critical.push_back(k);
   }
-  Eigen::Index at = linear.use.size();
-  linear.use.conservativeResize(at + std::ssize(critical));
-  linear.slope.conservativeResize(linear.use.size(), slope.cols());
-  for (const Eigen::Index k : critical) {
-    const bool is_new = linear.place.empty() || places_[linear.place.back()].stretch != stretch(k);
-    if (is_new) linear.stretch_end.emplace_back();
+  const auto add = [&](Eigen::Index k, double sign) {
+    const Eigen::Index at = linear.use.size();
+    linear.use.conservativeResize(at + 1);
+    linear.slope.conservativeResize(at + 1, uses.slope.cols());
+    linear.use[at] = sign * use[k];
+    linear.slope.row(at) = sign * uses.slope.row(k);
+    if (linear.place.empty() || places_[linear.place.back()].stretch != stretch(k))
+      linear.stretch_end.emplace_back();
     linear.place.push_back(first_place + static_cast<std::size_t>(k));
-    linear.use[at] = use[k];
-    linear.slope.row(at) = slope.row(k);
-    linear.stretch_end.back() = ++at;
+    linear.stretch_end.back() = at + 1;
+  };
+  for (const Eigen::Index k : critical) {
+    add(k, 1);
+    if (kReach * drawn.row(k).norm() > 2 * use[k]) add(k, -1);
   }
 }
 
-std::vector<ForceUses> ForceDemands::estimate(const Eigen::MatrixXd& sigmas) const {
-  std::vector<ForceUses> uses(static_cast<std::size_t>(sigmas.cols()), ForceUses{});
+std::vector<ForceUses> ForceDemands::estimate(const Eigen::MatrixXd& errors) const {
+  std::vector<ForceUses> uses(static_cast<std::size_t>(errors.cols()), ForceUses{});
   for (std::size_t r = 0; r < rows().size(); ++r) {
     if (linear_[r].place.empty()) continue;
-    const Eigen::VectorXd greatest = linear_[r].at(sigmas).colwise().maxCoeff();
+    const Eigen::VectorXd greatest = linear_[r].at(errors).colwise().maxCoeff();
     for (std::size_t draw = 0; draw < uses.size(); ++draw) {
       double& most = uses[draw][rows()[r].limit];
       most = std::max(most, greatest[static_cast<Eigen::Index>(draw)]);
@@ -195,11 +224,11 @@ ForceUses ForceDemands::uses_at(const std::vector<std::size_t>& places, const Pl
 }
 
 std::vector<ForceUses> ForceDemands::of(const std::vector<Plant>& plants,
-                                        const Eigen::MatrixXd& sigmas) const {
+                                        const Eigen::MatrixXd& errors) const {
   std::vector<std::vector<std::size_t>> places(plants.size());
   for (const Linear& linear : linear_) {
     if (linear.place.empty()) continue;
-    const Eigen::MatrixXd use = linear.at(sigmas);
+    const Eigen::MatrixXd use = linear.at(errors);
     for (std::size_t draw = 0; draw < plants.size(); ++draw)
       append_greatest(linear, use.col(static_cast<Eigen::Index>(draw)).data(), places[draw]);
   }

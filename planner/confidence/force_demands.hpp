@@ -22,29 +22,35 @@ inline constexpr std::size_t kForceLimits = [] {
 /// Use of each of force_limits(): above 1 it saturates.
 using ForceUses = std::array<double, kForceLimits>;
 
-/// The plants with one sigma more and one less of each error of a draw.
+/// Pairs of plants with more and with less of each error of a draw.
 using ShiftedPlants = std::vector<std::array<Plant, 2>>;
 
+/// The errors of draws: what one sigma of each does, what the largest one does that is drawn (kReach sigmas),
+/// and a factor that makes errors out of independent standard normal numbers.
+struct ErrorPlants {
+  ShiftedPlants near{}, far{};
+  Eigen::MatrixXd factor{};
+};
+inline constexpr double kReach = 6.0;  ///< sigmas of an error, or of a use, that no draw exceeds
+
 /// What a planned motion, tracked exactly, uses of the limits of motors, battery and tires, for other plants
-/// than the planned one. Looked at are both ends and the middle of every segment that errors up to six sigmas
-/// of its use may saturate, but for those below another one, whatever such errors are. Open-circuit voltages
-/// and winding resistances are those of the plan's legs. It keeps references to plan and plant.
+/// than the planned one. Looked at are both ends and the middle of every segment that the largest errors
+/// together may saturate, but for those below another one, whatever the errors are. Open-circuit voltages and
+/// winding resistances are those of the plan's legs. It keeps references to plan and plant.
 class ForceDemands {
  public:
-  /// `factor` times independent standard normal numbers: errors in sigmas as they are drawn.
-  ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ShiftedPlants& shifted,
-               const Eigen::MatrixXd& factor);
+  ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ErrorPlants& errors);
 
   /// Greatest uses by the nominal plant.
   const ForceUses& nominal() const { return nominal_; }
 
-  /// Greatest uses by derivatives for each column of errors in sigmas.
-  [[nodiscard]] std::vector<ForceUses> estimate(const Eigen::MatrixXd& sigmas) const;
+  /// Greatest uses by derivatives for each column of errors (PlantDraw).
+  [[nodiscard]] std::vector<ForceUses> estimate(const Eigen::MatrixXd& errors) const;
 
-  /// Greatest uses by plants, whose errors are the columns of `sigmas`: the model at the places where the
+  /// Greatest uses by plants, whose errors are the columns of `errors`: the model at the places where the
   /// derivatives find the greatest ones of each limit and side, on each stretch.
   [[nodiscard]] std::vector<ForceUses> of(const std::vector<Plant>& plants,
-                                          const Eigen::MatrixXd& sigmas) const;
+                                          const Eigen::MatrixXd& errors) const;
 
   /// The limits of a leg for a plant, the battery's own included.
   [[nodiscard]] Limits limits_on(std::size_t leg, const Plant& plant) const;
@@ -63,14 +69,15 @@ class ForceDemands {
     Side side{};
   };
   static const std::vector<Row>& rows();
-  /// The critical places of one row: uses, and their changes with one sigma of each error (a row each).
+  /// The critical places of one row: uses, and their changes with one sigma of each error (a row each). A
+  /// place whose force may change its sign stands there twice, with a use below zero for the other sign.
   struct Linear {
     std::vector<std::size_t> place{};
     std::vector<Eigen::Index> stretch_end{};  ///< the first place after each stretch
     Eigen::VectorXd use{};
     Eigen::MatrixXd slope{};  ///< a row each
 
-    Eigen::MatrixXd at(const Eigen::MatrixXd& sigmas) const { return (slope * sigmas).colwise() + use; }
+    Eigen::MatrixXd at(const Eigen::MatrixXd& errors) const { return (slope * errors).colwise() + use; }
   };
 
   std::vector<Place> all_places() const;
@@ -80,10 +87,15 @@ class ForceDemands {
   }
   /// Uses of each row at a leg's places, by a plant.
   Eigen::MatrixXd uses_by(const Plant& plant, std::size_t leg, const std::vector<Place>& places) const;
-  void linearize(std::size_t leg, const ShiftedPlants& shifted, const Eigen::MatrixXd& factor,
-                 const std::vector<Place>& places);
-  void append_critical(Linear& linear, std::size_t first_place, const Eigen::VectorXd& use,
-                       const Eigen::MatrixXd& slope, const Eigen::MatrixXd& factor);
+  void linearize(std::size_t leg, const ErrorPlants& errors, const std::vector<Place>& places);
+  /// What is known of the places of a leg and one row: uses by the nominal plant, their changes with one
+  /// sigma of each error, and uses by the far plants, two columns for each error.
+  struct Uses {
+    Eigen::VectorXd nominal{};
+    Eigen::MatrixXd slope{}, far{};
+  };
+  void append_critical(Linear& linear, std::size_t first_place, const Uses& uses,
+                       const Eigen::MatrixXd& factor);
   /// The places of the greatest estimated uses on each stretch.
   static void append_greatest(const Linear& linear, const double* use, std::vector<std::size_t>& places);
   ForceUses uses_at(const std::vector<std::size_t>& places, const Plant& plant) const;

@@ -12,15 +12,21 @@ PlanDemands::PlanDemands(const Plan& plan, const Robot& robot, const Plant& plan
       plant_(plant),
       charge_(charge),
       energy_(plan, plant),
+      model_error_(std::ssize(nuisances_of(plant.robot))),
       model_friction_Nm_(model_friction_Nm(robot.model_energy_sigma().value_or(0.0))),
-      forces_(plan, robot, plant, shifted(), error_factor(plant.robot)) {
+      errors_{shifted(1), shifted(kReach), error_factor(robot)},
+      forces_(plan, robot, plant, errors_) {
   if (!std::isfinite(robot.battery.capacity_Wh)) return;
-  const ShiftedPlants plants = shifted();
-  fraction_ = energy_.least_fraction(plant, charge_);
-  fraction_per_sigma_.resize(static_cast<Eigen::Index>(plants.size()));
-  for (std::size_t i = 0; i < plants.size(); ++i)
-    fraction_per_sigma_[static_cast<Eigen::Index>(i)] =
-        0.5 * (energy_.least_fraction(plants[i][0], charge_) - energy_.least_fraction(plants[i][1], charge_));
+  constexpr double kSlight = 1e-6;
+  const auto fraction = [&](const Plant& other) { return energy_.least_fraction(other, charge_); };
+  fraction_ = fraction(plant);
+  fraction_per_sigma_.resize(std::ssize(errors_.near));
+  for (std::size_t i = 0; i < errors_.near.size(); ++i) {
+    const double change = 0.5 * (fraction(errors_.near[i][0]) - fraction(errors_.near[i][1]));
+    fraction_per_sigma_[static_cast<Eigen::Index>(i)] = change;
+    const double drop = fraction_ - std::min(fraction(errors_.far[i][0]), fraction(errors_.far[i][1]));
+    if (std::abs(change) > kSlight) steepening_ = std::max(steepening_, drop / (kReach * std::abs(change)));
+  }
 }
 
 double PlanDemands::model_friction_Nm(double sigma) const {
@@ -34,8 +40,8 @@ double PlanDemands::model_friction_Nm(double sigma) const {
   return more_J > 0 ? step_Nm * sigma * std::abs(motion_J) / more_J : 0.0;
 }
 
+/// Friction never drives the robot.
 Plant PlanDemands::with_model_error(Plant plant, double sigmas) const {
-  constexpr double kLeastShare = 0.05;  // friction never drives the robot
   for (const Side side : kSides) {
     double& friction_Nm = plant.robot.motor[side].friction_torque_Nm;
     friction_Nm = std::max(kLeastShare * friction_Nm, friction_Nm + sigmas * model_friction_Nm_);
@@ -43,33 +49,42 @@ Plant PlanDemands::with_model_error(Plant plant, double sigmas) const {
   return plant;
 }
 
-ShiftedPlants PlanDemands::shifted() const {
-  ShiftedPlants plants = uncertain(plant_).shifted;
-  plants.push_back({with_model_error(plant_, 1), with_model_error(plant_, -1)});
+ShiftedPlants PlanDemands::shifted(double sigmas) const {
+  ShiftedPlants plants;
+  for (const Nuisance& nuisance : nuisances_of(plant_.robot)) {
+    const double more = sigmas * nuisance.sigma;
+    plants.push_back(
+        {with_error(plant_, nuisance, more), with_error(plant_, nuisance, std::max(-more, kLeastShare - 1))});
+  }
+  plants.push_back({with_model_error(plant_, sigmas), with_model_error(plant_, -sigmas)});
+  for (const std::size_t effect : uncertain_effects(robot_))
+    plants.push_back({plant_without(robot_, {effect}), plant_});
   return plants;
 }
 
-double PlanDemands::estimated_fraction(const Eigen::VectorXd& sigmas) const {
-  return fraction_per_sigma_.size() > 0 ? fraction_ + fraction_per_sigma_.dot(sigmas) : fraction_;
+double PlanDemands::estimated_fraction(const Eigen::VectorXd& errors) const {
+  return fraction_per_sigma_.size() > 0 ? fraction_ + fraction_per_sigma_.dot(errors) : fraction_;
 }
 
-std::vector<PlanDemand> PlanDemands::estimate(const Eigen::MatrixXd& sigmas) const {
+std::vector<PlanDemand> PlanDemands::estimate(const Eigen::MatrixXd& errors) const {
   std::vector<PlanDemand> demands;
-  for (const ForceUses& use : forces_.estimate(sigmas))
-    demands.push_back({use, estimated_fraction(sigmas.col(std::ssize(demands)))});
+  for (const ForceUses& use : forces_.estimate(errors))
+    demands.push_back({use, estimated_fraction(errors.col(std::ssize(demands)))});
   return demands;
 }
 
-std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& sigmas, const PlantDraws& draws) const {
-  constexpr double kDoubt = 0.5;  // of the change by derivatives: what it may be wrong by
+std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& errors, const PlantDraws& draws) const {
+  constexpr double kDoubt = 0.5;  // of the change by derivatives, beside its steepening: errors act together
   std::vector<Plant> plants;
-  for (const auto& column : sigmas.colwise()) plants.push_back(plant_of(draws.draw_of(column)));
+  for (const auto& column : errors.colwise()) plants.push_back(plant_of(draws.draw_of(column)));
   std::vector<PlanDemand> demands;
-  for (const ForceUses& use : forces_.of(plants, sigmas)) {
+  for (const ForceUses& use : forces_.of(plants, errors)) {
     const Plant& plant = plants[demands.size()];
-    PlanDemand& demand = demands.emplace_back(use, estimated_fraction(sigmas.col(std::ssize(demands))));
-    if (demand.least_fraction - kDoubt * std::abs(demand.least_fraction - fraction_) <
-        robot_.battery.reserve_fraction)
+    const Eigen::VectorXd of_draw = errors.col(std::ssize(demands));
+    PlanDemand& demand = demands.emplace_back(use, estimated_fraction(of_draw));
+    if (fraction_per_sigma_.size() == 0) continue;
+    const double drop = -fraction_per_sigma_.cwiseProduct(of_draw).cwiseMin(0.0).sum();
+    if (fraction_ - (steepening_ + kDoubt) * drop < robot_.battery.reserve_fraction)
       demand.least_fraction = energy_.least_fraction(plant, charge_);
   }
   return demands;

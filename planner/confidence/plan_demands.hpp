@@ -23,16 +23,16 @@ class PlanDemands {
 
   [[nodiscard]] PlanDemand nominal() const { return {forces_.nominal(), fraction_}; }
 
-  /// By derivatives, for each column of errors in sigmas.
-  [[nodiscard]] std::vector<PlanDemand> estimate(const Eigen::MatrixXd& sigmas) const;
+  /// By derivatives, for each column of errors (PlantDraw).
+  [[nodiscard]] std::vector<PlanDemand> estimate(const Eigen::MatrixXd& errors) const;
 
   /// By the model, for the plants of such columns; the state of charge by derivatives where they leave no
   /// doubt that the reserve is kept.
-  [[nodiscard]] std::vector<PlanDemand> of(const Eigen::MatrixXd& sigmas, const PlantDraws& draws) const;
+  [[nodiscard]] std::vector<PlanDemand> of(const Eigen::MatrixXd& errors, const PlantDraws& draws) const;
 
   /// The plant of a draw, the model's own error included.
   [[nodiscard]] Plant plant_of(const PlantDraw& draw) const {
-    return with_model_error(draw.plant, draw.sigmas[draw.sigmas.size() - 1]);
+    return with_model_error(draw.plant, draw.errors[model_error_]);
   }
   [[nodiscard]] Limits limits_on(std::size_t leg, const Plant& plant) const {
     return forces_.limits_on(leg, plant);
@@ -42,17 +42,21 @@ class PlanDemands {
   double model_friction_Nm(double sigma) const;
   /// A plant with so many sigmas of the model's own error.
   Plant with_model_error(Plant plant, double sigmas) const;
-  ShiftedPlants shifted() const;
-  double estimated_fraction(const Eigen::VectorXd& sigmas) const;
+  /// Each error of so many sigmas more and less; of an effect that may be absent: without it, and with it.
+  ShiftedPlants shifted(double sigmas) const;
+  double estimated_fraction(const Eigen::VectorXd& errors) const;
 
   const Robot& robot_;
   const Plant& plant_;
   ChargeStates charge_;
   PlanEnergy energy_;
+  Eigen::Index model_error_{};  ///< place of the model's own error
   double model_friction_Nm_{};  ///< of one sigma of the model's own error
+  ErrorPlants errors_;
   ForceDemands forces_;
   double fraction_{1.0};                  ///< the nominal plant's least state of charge
   Eigen::VectorXd fraction_per_sigma_{};  ///< none where the battery has no capacity
+  double steepening_{1};  ///< by how much more than by derivatives the charge falls with one error
 };
 
 }  // namespace joulepath

@@ -22,7 +22,7 @@ Sample PromiseJudge::sample_of(const PlanDemand& nominal, PlantDraws& draws,
   Sample sample{.nominal = nominal};
   while (sample.drawn.size() < draws_) {
     const std::size_t count = std::min(kTogether, draws_ - sample.drawn.size());
-    for (const PlanDemand& demand : demands_of_some(draws.next_sigmas(count))) {
+    for (const PlanDemand& demand : demands_of_some(draws.next_errors(count))) {
       const bool kept = keeps_limits(demand) && keeps_reserve(demand, robot_.battery.reserve_fraction);
       sample.kept += kept ? 1 : 0;
       sample.drawn.push_back(demand);
@@ -33,16 +33,16 @@ Sample PromiseJudge::sample_of(const PlanDemand& nominal, PlantDraws& draws,
 
 Sample PromiseJudge::estimated(const Plan& plan) const {
   const PlanDemands demands = demands_of(plan);
-  PlantDraws draws(plant_, 0);
+  PlantDraws draws(robot_, plant_, 0);
   return sample_of(demands.nominal(), draws,
-                   [&](const Eigen::MatrixXd& sigmas) { return demands.estimate(sigmas); });
+                   [&](const Eigen::MatrixXd& errors) { return demands.estimate(errors); });
 }
 
 Sample PromiseJudge::judged(const Plan& plan, std::uint64_t seed) const {
   const PlanDemands demands = demands_of(plan);
-  PlantDraws draws(plant_, seed);
+  PlantDraws draws(robot_, plant_, seed);
   Sample sample = sample_of(demands.nominal(), draws,
-                            [&](const Eigen::MatrixXd& sigmas) { return demands.of(sigmas, draws); });
+                            [&](const Eigen::MatrixXd& errors) { return demands.of(errors, draws); });
   sample.seed = seed;
   return sample;
 }
@@ -81,7 +81,7 @@ bool PromiseJudge::arrives(const Plan& plan, const PlanDemands& demands, const P
 
 double PromiseJudge::arrival_share(const Plan& plan, const Sample& sample) const {
   const PlanDemands demands = demands_of(plan);
-  PlantDraws draws(plant_, sample.seed);
+  PlantDraws draws(robot_, plant_, sample.seed);
   std::size_t late = 0;
   for (const PlanDemand& demand : sample.drawn) {
     const PlantDraw draw = draws.next();

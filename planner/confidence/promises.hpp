@@ -35,7 +35,7 @@ class PromiseJudge {
 
  private:
   PlanDemands demands_of(const Plan& plan) const;
-  /// `demands_of_some`: of errors in sigmas, a column for each draw.
+  /// `demands_of_some`: of errors, a column for each draw.
   template <class DemandsOfSome>
   Sample sample_of(const PlanDemand& nominal, PlantDraws& draws, const DemandsOfSome& demands_of_some) const;
   const std::vector<LegRequest>& legs_of(const Plan& plan) const;

@@ -5,6 +5,8 @@
 namespace joulepath {
 namespace {
 
+constexpr const char* kProbability = "probability";
+
 Schema effect_schema(const EffectDescription& effect) {
   std::vector<Schema::Key> keys;
   for (const auto& p : effect.parameters) {
@@ -17,6 +19,8 @@ Schema effect_schema(const EffectDescription& effect) {
   if (effect.has_cells)
     keys.push_back(optional("cells", list(list(number(), 4, 4), 1),
                             "instead of the rectangle: [x_min_m, x_max_m, y_min_m, y_max_m] of each cell"));
+  keys.push_back(optional(kProbability, number({0, 1}),
+                          "that the robot has this effect, for plans with a stated confidence; default 1"));
   return map(std::move(keys));
 }
 
@@ -38,6 +42,8 @@ EffectSetting read_effect(const std::string& name, const Node& node) {
       setting.side = value.text() == "left" ? Side::left : Side::right;
     else if (key == "cells")
       setting.cells = read_cells(value);
+    else if (key == kProbability)
+      setting.probability = value.number();
     else
       setting.parameters[key] = value.number();
   }

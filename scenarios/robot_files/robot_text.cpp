@@ -111,6 +111,7 @@ std::string effect_line(const EffectSetting& effect) {
     cells += (cells.empty() ? "[" : ", [") + number_text(cell[0]) + ", " + number_text(cell[1]) + ", " +
              number_text(cell[2]) + ", " + number_text(cell[3]) + "]";
   if (!cells.empty()) section.raw("cells", "[" + cells + "]");
+  if (effect.probability < 1) section.number("probability", effect.probability);
   return section.line();
 }
 

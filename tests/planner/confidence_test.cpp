@@ -12,6 +12,7 @@
 #include "planner/confidence/lateness.hpp"
 #include "planner/confidence/margins.hpp"
 #include "planner/confidence/plan_demands.hpp"
+#include "planner/confidence/plan_energy.hpp"
 #include "planner/mission/mission.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -182,13 +183,13 @@ TEST(Confidence, LooksWhereADrawnRobotUsesItsLimitsMost) {
   const Plan plan = planned_for(straight_and_bend({.minimize = Objective::Minimize::time}), robot);
   const Plant plant = make_plant(robot);
   const PlanDemands demands(plan, robot, plant, {});
-  PlantDraws draws(plant, 7);
-  const Eigen::MatrixXd sigmas = draws.next_sigmas(150);
-  const std::vector<PlanDemand> found = demands.of(sigmas, draws), estimated = demands.estimate(sigmas);
+  PlantDraws draws(robot, plant, 7);
+  const Eigen::MatrixXd errors = draws.next_errors(150);
+  const std::vector<PlanDemand> found = demands.of(errors, draws), estimated = demands.estimate(errors);
   std::size_t saturated = 0;
   for (std::size_t draw = 0; draw < found.size(); ++draw) {
-    const Plant drawn = demands.plant_of(draws.draw_of(sigmas.col(static_cast<Eigen::Index>(draw))));
-    const ForceUses all = ForceDemands(plan, robot, drawn, {}, {}).nominal();
+    const Plant drawn = demands.plant_of(draws.draw_of(errors.col(static_cast<Eigen::Index>(draw))));
+    const ForceUses all = ForceDemands(plan, robot, drawn, {}).nominal();
     for (std::size_t i = 0; i < kForceLimits; ++i) {
       if (all[i] < 0.9) continue;
       EXPECT_NEAR(found[draw].use[i], all[i], 2e-5) << force_limits()[i]->name << " of draw " << draw;
@@ -197,6 +198,92 @@ TEST(Confidence, LooksWhereADrawnRobotUsesItsLimitsMost) {
     }
   }
   EXPECT_GT(saturated, 50u);
+}
+
+/// Robots whose errors act far from linearly: a weak motor constant, which counts squared in the power and in
+/// the copper's losses, and a hill that nearly drives the robot, where the current changes its sign.
+std::vector<Robot> bent_robots() {
+  std::vector<Robot> robots(3, testing::nomad());
+  for (Robot& robot : robots) robot.uncertainty_correlations.clear();
+  robots[0].uncertainty = {{"torque_constant_Nm_A", 0.3}, {"gear_ratio", 0.2}, {"model_energy", 0.02}};
+  robots[1].uncertainty = {{"friction_torque_Nm", 0.2}, {"chassis_mass_kg", 0.1}, {"model_energy", 0.05}};
+  robots[1].effects = {
+      {.name = "floor_slope", .parameters = {{"grade", 0.03}, {"uphill_direction_rad", M_PI}}}};
+  robots[1].limits->acceleration_m_s2 = robots[1].limits->deceleration_m_s2 = 0.01;
+  robots[2].uncertainty = {{"torque_constant_Nm_A", 0.2}, {"model_energy", 0.01}};
+  for (const Side side : kSides) {
+    robots[0].motor[side].max_current_A = 2.5;
+    robots[1].motor[side].max_current_A = 0.12;
+    robots[2].motor[side].resistance_ohm = 20;
+  }
+  robots[2].battery.reserve_fraction = 0.1;
+  robots[2].battery.capacity_Wh = 0.08;
+  return robots;
+}
+
+/// Judge: the model at all places and over all of the motion, for each drawn robot.
+TEST(Confidence, JudgesRobotsWhoseErrorsActFarFromLinearly) {
+  for (const Robot& robot : bent_robots()) {
+    const std::ptrdiff_t which = std::ssize(robot.effects);
+    const Plan plan = planned_for(straight(3, {}), robot);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    const Plant plant = make_plant(robot);
+    const PlanDemands demands(plan, robot, plant, {.start_fraction = 1.0});
+    const PlanEnergy energy(plan, plant);
+    PlantDraws draws(robot, plant, 11);
+    const Eigen::MatrixXd errors = draws.next_errors(1000);
+    const std::vector<PlanDemand> found = demands.of(errors, draws);
+    int lost = 0, wrong = 0;
+    for (std::size_t draw = 0; draw < found.size(); ++draw) {
+      const Plant drawn = demands.plant_of(draws.draw_of(errors.col(static_cast<Eigen::Index>(draw))));
+      const PlanDemand all{ForceDemands(plan, robot, drawn, {}).nominal(),
+                           energy.least_fraction(drawn, {.start_fraction = 1.0})};
+      const auto keeps = [&](const PlanDemand& demand) {
+        return keeps_limits(demand) && keeps_reserve(demand, robot.battery.reserve_fraction);
+      };
+      lost += !keeps(all), wrong += keeps(all) != keeps(found[draw]);
+    }
+    EXPECT_GT(lost, 5) << which << " effects, " << robot.battery.capacity_Wh << " Wh";
+    EXPECT_LE(wrong, 1) << which << " effects, " << robot.battery.capacity_Wh << " Wh";
+  }
+}
+
+/// A later deadline is never refused where an earlier one is kept.
+TEST(Confidence, ALaterDeadlineIsNeverRefused) {
+  Robot robot = testing::nomad();
+  for (const Side side : kSides) robot.motor[side].max_current_A = 0.95;
+  robot.uncertainty_correlations.clear();
+  robot.uncertainty = {{"friction_torque_Nm", 0.15},
+                       {"chassis_mass_kg", 0.1},
+                       {"resistance_ohm", 0.1},
+                       {"torque_constant_Nm_A", 0.03},
+                       {"model_energy", 0.02}};
+  const Plan fastest = planned_for(straight_and_bend(soonest(0.95)), robot);
+  ASSERT_LE(fastest.status, SolveStatus::feasible) << fastest.message;
+  for (const double later : {1.001, 1.004, 1.008, 1.015, 1.03}) {
+    const Objective objective{.deadline_s = later * fastest.duration_s, .confidence = 0.95};
+    const Plan plan = planned_for(straight_and_bend(objective), robot);
+    EXPECT_LE(plan.status, SolveStatus::feasible) << later << ": " << plan.message;
+  }
+}
+
+/// Without its rolling resistance the robot needs more current to brake: a plan that uses the whole current
+/// is kept by the robots that have it, one with margins by the others, too.
+TEST(Confidence, MixesAnEffectByItsProbability) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"chassis_mass_kg", 0.0}, {"model_energy", 0.0}};
+  robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.01}}, .probability = 0.7}};
+  const Plan plan = planned_for(straight(6, soonest(0.95)), robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  EXPECT_NEAR(plan.confidence->kept_without, 0.7, 4 * share_sigma(0.7, 4000));
+  EXPECT_EQ(plan.confidence->kept, 1.0);
+  Robot lacking = robot;
+  lacking.effects.clear();
+  EXPECT_LE(greatest_current_A(plan_trajectory(plan, make_plant(lacking), 200)), 1.0 + 1e-6);
+  robot.effects[0].probability = 0.99;  // more than is asked for
+  const Plan sure = planned_for(straight(6, soonest(0.95)), robot);
+  EXPECT_TRUE(sure.confidence->limit_shares.empty());
+  EXPECT_LT(sure.duration_s, 0.99 * plan.duration_s);
 }
 
 /// Both wheels' friction errs on its own. A start needs a per + T <= I Kt n, braking a per - T <= I Kt n,
@@ -241,7 +328,7 @@ TEST(Confidence, DrawsHaveTheCorrelationOfTheFile) {
   robot.uncertainty = {{"chassis_mass_kg", 0.05}, {"resistance_ohm", 0.1}, {"model_energy", 0.0}};
   robot.uncertainty_correlations = {{"chassis_mass_kg", "resistance_ohm", -0.8}};
   const Plant plant = make_plant(robot);
-  PlantDraws draws(plant, 3);
+  PlantDraws draws(robot, plant, 3);
   double of_mass = 0, of_ohm = 0, of_both = 0;
   for (int i = 0; i < 4000; ++i) {
     const Plant drawn = draws.next().plant;
