@@ -30,7 +30,7 @@ Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Robot]
 #: The process of a command: FILE_DESCRIPTOR WORDS...
 _PROGRAM = "import sys, joulepath._core as c; sys.exit(c.program_main(['joulepath', *sys.argv[2:]], int(sys.argv[1])))"
 #: Exit codes that are an answer where the program printed one, beside 0.
-_ANSWERS = {"check": (2,), "drift": (1, 2), "batch": (1,), "monitor": (1,)}
+_ANSWERS = {"check": (1, 2), "drift": (1, 2), "batch": (1,), "monitor": (1,)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,11 +46,16 @@ class Answer:
 
     @property
     def json(self) -> Any:
-        """The printed JSON as a Record, or a tuple of them (a list, or one for each line); None without any."""
+        """The printed JSON as a Record, or a tuple of them (a list, or one for each line); None where the program
+        printed none: ``text`` has its words."""
         try:
-            return viewed(json.loads(self.text)) if self.text.strip() else None
+            return viewed(json.loads(self.text))
         except json.JSONDecodeError:
-            return tuple(viewed(json.loads(line)) for line in self.text.splitlines())
+            pass
+        try:
+            return tuple(viewed(json.loads(line)) for line in self.text.splitlines()) or None
+        except json.JSONDecodeError:
+            return None
 
     def table(self, name: str) -> dict[str, NDArray[Any]]:
         """Columns of a written CSV file, shape (N,): float64, or text where a cell is neither a number nor empty."""
@@ -127,7 +132,8 @@ def _words(options: Mapping[str, Any], folder: FilePath) -> list[str]:
         if value is True:
             words.append(flag)
         elif value is not None and value is not False:
-            words += [flag, _input(key, value, folder) if key == "robot" else encodable(key, str(value))]
+            # One word: an unknown option is named as such, and its value is no further file.
+            words.append(f"{flag}={_input(key, value, folder) if key == 'robot' else encodable(key, str(value))}")
     return words
 
 
@@ -191,7 +197,8 @@ def _bytes(file: FilePath, folder: str) -> bytes:
 
 
 def check(*files: Source, progress: Progress = None, **options: Any) -> Answer:
-    """Validates inputs, as ``joulepath check``: ``json`` has ``ok`` and ``error`` or ``notes`` of each.
+    """Validates inputs, as ``joulepath check``: ``json`` has ``ok`` and ``error``, or ``notes`` of each;
+    of a dataset that needs repairs ``ok`` is False and ``data_checks`` has them.
     ``progress(done, total)`` is called after each file. Raises ConfigError for options that it does not have."""
     return _run("check", {f"files_{k}": file for k, file in enumerate(files)}, options, progress=progress)
 
@@ -242,8 +249,8 @@ def calibrate(dataset: Source, *, progress: Progress = None, **options: Any) -> 
 
 def experiment(dataset: Source, *, progress: Progress = None, **options: Any) -> Answer:
     """The run that best separates the candidates of a diagnosis, as ``joulepath experiment``:
-    ``files["mission.yaml"]``, none where nothing is left to separate (``messages`` says so). ``progress(done, total)``
-    is called after each log and step. Raises ConfigError."""
+    ``files["mission.yaml"]``, none where nothing is left to separate (``text`` says so, and ``json`` is None).
+    ``progress(done, total)`` is called after each log and step. Raises ConfigError."""
     return _run("experiment", {"dataset": dataset}, options, "mission.yaml", json_too=False, progress=progress)
 
 

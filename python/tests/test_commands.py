@@ -91,7 +91,16 @@ def test_calibrate_drift_and_experiment(program, starter):
     assert answer.files["robot.yaml"] == pathlib.Path("fitted.yaml").read_bytes()
     assert jp.drift("dataset.yaml", "dataset.yaml").text == printed(program, "drift", "dataset.yaml", "dataset.yaml")
     answer = jp.experiment("dataset.yaml")
-    assert not answer.files and "no candidates to separate" in answer.text + answer.messages
+    assert not answer.files and answer.json is None and "no candidates to separate" in answer.text
+
+
+def test_check_names_the_repairs_of_a_dataset(program, starter):
+    log = pathlib.Path("run_01.csv")
+    header, *rows = log.read_text().splitlines()
+    in_ms = (f"{1000 * float(time_s):g},{rest}" for time_s, rest in (row.split(",", 1) for row in rows))
+    log.write_text("\n".join([header, *in_ms]) + "\n")
+    answer = jp.check("dataset.yaml")
+    assert (answer.code, answer.json[0].ok) == (1, False) and answer.json[0].data_checks
 
 
 def test_monitor(program, starter):
@@ -104,6 +113,8 @@ def test_monitor(program, starter):
 
 def test_errors_are_those_of_the_package(robot, mission):
     assert jp.check({**mission, "legs": 3}).json[0].ok is False
+    with pytest.raises(jp.ConfigError, match="unknown argument --pionts"):
+        jp.front(mission, pionts=3)
     with pytest.raises(jp.ConfigError) as caught:
         jp.compare({**mission, "robot": robot, "legs": 3})
     assert caught.value.key == "legs" and caught.value.found
