@@ -50,7 +50,7 @@ ForceDemands::ForceDemands(const Plan& plan, const Robot& robot, const Plant& pl
   for (const LegPlan& leg : plan.legs)
     limits_.push_back(limits_between_payloads(robot, leg.payload.from_kg, leg.payload.to_kg));
   std::vector<std::vector<Place>> on_leg(plan.legs.size());
-  for (Place& place : all_places()) on_leg[place.leg].push_back(std::move(place));
+  for (const Place& place : all_places()) on_leg[place.leg].push_back(place);
   for (std::size_t leg = 0; leg < on_leg.size(); ++leg)
     if (!on_leg[leg].empty()) linearize(leg, errors, on_leg[leg]);
 }

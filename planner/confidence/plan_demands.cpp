@@ -81,7 +81,7 @@ std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& errors, const Pla
   for (const ForceUses& use : forces_.of(plants, errors)) {
     const Plant& plant = plants[demands.size()];
     const Eigen::VectorXd of_draw = errors.col(std::ssize(demands));
-    PlanDemand& demand = demands.emplace_back(use, estimated_fraction(of_draw));
+    PlanDemand& demand = demands.emplace_back(PlanDemand{use, estimated_fraction(of_draw)});
     if (fraction_per_sigma_.size() == 0) continue;
     const double drop = -fraction_per_sigma_.cwiseProduct(of_draw).cwiseMin(0.0).sum();
     if (fraction_ - (steepening_ + kDoubt) * drop < robot_.battery.reserve_fraction)
