@@ -82,7 +82,7 @@ TEST_P(MoreEffects, AreInTheCatalogTheDocumentAndTheSchema) {
   const Schema& entry = schema.parts.front();
   const auto key = std::ranges::find(entry.keys, setting.name, &Schema::Key::name);
   ASSERT_NE(key, entry.keys.end());
-  EXPECT_EQ(key->schema.keys.size(), setting.parameters.size());
+  EXPECT_EQ(key->schema.keys.size(), setting.parameters.size() + 1);  // and its probability
   const Document robot = Document::parse(
       "effects: [{curve_drag: {coefficient_N_s_rad: 10}}, {gear_resonance: {torque_Nm: 1, speed_rad_s: 2}}]",
       "robot.yaml");
