@@ -234,8 +234,8 @@ TEST(Confidence, JudgesRobotsWhoseErrorsActFarFromLinearly) {
     const PlanEnergy energy(plan, plant);
     PlantDraws draws(robot, plant, 11);
     const Eigen::MatrixXd errors = draws.next_errors(1000);
-    const std::vector<PlanDemand> found = demands.of(errors, draws);
-    int lost = 0, wrong = 0;
+    const std::vector<PlanDemand> found = demands.of(errors, draws), estimated = demands.estimate(errors);
+    int lost = 0, wrong = 0, estimated_wrong = 0;
     for (std::size_t draw = 0; draw < found.size(); ++draw) {
       const Plant drawn = demands.plant_of(draws.draw_of(errors.col(static_cast<Eigen::Index>(draw))));
       const PlanDemand all{ForceDemands(plan, robot, drawn, {}).nominal(),
@@ -244,8 +244,12 @@ TEST(Confidence, JudgesRobotsWhoseErrorsActFarFromLinearly) {
         return keeps_limits(demand) && keeps_reserve(demand, robot.battery.reserve_fraction);
       };
       lost += !keeps(all), wrong += keeps(all) != keeps(found[draw]);
+      estimated_wrong += keeps(all) != keeps(estimated[draw]);
     }
     EXPECT_GT(lost, 5) << which << " effects, " << robot.battery.capacity_Wh << " Wh";
+    if (which > 0) {  // |a + b x| is estimated on both sides
+      EXPECT_LT(estimated_wrong, 0.2 * lost) << lost << " lost";
+    }
     EXPECT_LE(wrong, 3) << lost << " lost, " << which << " effects, " << robot.battery.capacity_Wh << " Wh";
   }
 }
