@@ -216,12 +216,12 @@ std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const Diagnos
   return described;
 }
 
-/// A cause's probability stands beside its effect in the corrected robot.
-void state_probabilities(const std::vector<Cause>& causes, Robot& robot) {
+/// A cause's probability stands beside its effect in the corrected robot, behind those of the robot's file.
+void state_probabilities(const std::vector<Cause>& causes, std::size_t of_file, Robot& robot) {
   for (const Cause& cause : causes)
-    for (EffectSetting& effect : robot.effects)
-      if (effect.name == cause.effect.name && effect.side == cause.effect.side)
-        effect.probability = cause.probability;
+    for (std::size_t k = of_file; k < robot.effects.size(); ++k)
+      if (robot.effects[k].name == cause.effect.name && robot.effects[k].side == cause.effect.side)
+        robot.effects[k].probability = cause.probability;
 }
 
 Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const DiagnoseOptions& options) {
@@ -250,7 +250,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
                     correction.notes,
                     {told_by_energies(dataset, correction)}});
   d.corrected_robot = correction.robot;
-  if (d.corrected_robot) state_probabilities(d.causes, *d.corrected_robot);
+  if (d.corrected_robot) state_probabilities(d.causes, dataset.robot.effects.size(), *d.corrected_robot);
   d.corrected_effects = correction.effects;
   d.corrected_instruments = correction.instruments;
   d.refused_correction = correction.refused;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/kinematics.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -15,6 +17,8 @@ constexpr std::size_t kLeastSteps = 100;
 /// sampled well.
 constexpr double kMostlyNoise = -0.4;
 constexpr double kSameNoise = 0.9;  ///< correlation of the pose's second differences with the wheels'
+constexpr double kSameWay =
+    0.01;  ///< of all that the wheels drove: a localization has not corrected the pose
 
 Samples second_differences(const Samples& values) {
   Samples differences;
@@ -34,19 +38,33 @@ double correlation(const Samples& a, const Samples& b, std::size_t lag = 0) {
 /// A rate by the wheels at the samples, and the pose's mean rate over each step between them.
 struct Rates {
   Samples wheels{}, pose{};
+  double apart{}, farthest_apart{};  ///< of what the pose's rate and the wheels' add up to
+  double driven{}, longest_step{};   ///< by the wheels, in either direction
+
+  void add_step(double before, double after, double change, double step_s) {
+    wheels.push_back(after);
+    pose.push_back(change / step_s);
+    apart += change - 0.5 * (before + after) * step_s;
+    farthest_apart = std::max(farthest_apart, std::abs(apart));
+    const double step = 0.5 * (std::abs(before) + std::abs(after)) * step_s;
+    driven += step;
+    longest_step = std::max(longest_step, step);
+  }
+
+  /// Whether no more than where in a step the rate was taken tells pose and wheels apart.
+  bool share_way() const { return farthest_apart <= kSameWay * driven + longest_step; }
 
   /// Whether the noise of the wheels is that of the pose, which was summed up from their rate at the end, at
   /// the start or in the middle of each step.
   bool share_noise() const {
-    if (pose.size() < kLeastSteps) return false;
+    if (pose.size() < kLeastSteps || !share_way()) return false;
     const Samples of_pose = second_differences(pose), all = second_differences(wheels);
     if (correlation(all, all, 1) > kMostlyNoise) return false;
     Samples starts(all.begin(), all.end() - 1), ends(all.begin() + 1, all.end());
     Samples middles(starts.size());
     std::ranges::transform(starts, ends, middles.begin(), [](double a, double b) { return 0.5 * (a + b); });
-    return std::ranges::any_of(std::to_array({&starts, &middles, &ends}), [&](Samples* noise) {
-      return correlation(*noise, of_pose) > kSameNoise;
-    });
+    return std::ranges::any_of(std::to_array({&starts, &middles, &ends}),
+                               [&](Samples* noise) { return correlation(*noise, of_pose) > kSameNoise; });
   }
 };
 
@@ -60,20 +78,20 @@ std::array<Rates, 2> rates_of(const Run& run, const Geometry& geometry) {
   if (!has(left) || !has(right) || !has(log.heading_rad)) return rates;
   auto& [turning, driving] = rates;
   const bool placed = has(log.position_x_m) && has(log.position_y_m);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double to_left = left[i] * geometry.wheel_radius_m.left,
-                 to_right = right[i] * geometry.wheel_radius_m.right;
-    turning.wheels.push_back((to_right - to_left) / (2 * geometry.half_track_m));
-    driving.wheels.push_back(0.5 * (to_left + to_right));
-    if (i == 0) continue;
+  const auto twist_at = [&](std::size_t i) { return body_twist<double>(geometry, {left[i], right[i]}); };
+  turning.wheels.push_back(twist_at(0).yaw_rate_rad_s);
+  driving.wheels.push_back(twist_at(0).speed_m_s);
+  for (std::size_t i = 1; i < n; ++i) {
     const double step_s = log.time_s[i] - log.time_s[i - 1];
     const double turned = std::remainder(log.heading_rad[i] - log.heading_rad[i - 1], 2 * std::numbers::pi);
-    turning.pose.push_back(turned / step_s);
+    const Twist<double> before = twist_at(i - 1), after = twist_at(i);
+    if (!(step_s > 0) || !std::isfinite(turned + before.yaw_rate_rad_s + after.yaw_rate_rad_s)) continue;
+    turning.add_step(before.yaw_rate_rad_s, after.yaw_rate_rad_s, turned, step_s);
     if (!placed) continue;
     const double middle_rad = log.heading_rad[i - 1] + 0.5 * turned;
-    driving.pose.push_back(((log.position_x_m[i] - log.position_x_m[i - 1]) * std::cos(middle_rad) +
-                            (log.position_y_m[i] - log.position_y_m[i - 1]) * std::sin(middle_rad)) /
-                           step_s);
+    const double along_m = (log.position_x_m[i] - log.position_x_m[i - 1]) * std::cos(middle_rad) +
+                           (log.position_y_m[i] - log.position_y_m[i - 1]) * std::sin(middle_rad);
+    if (std::isfinite(along_m)) driving.add_step(before.speed_m_s, after.speed_m_s, along_m, step_s);
   }
   return rates;
 }

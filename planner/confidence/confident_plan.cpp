@@ -92,16 +92,18 @@ class ConfidentPlanner {
                 .duration_without_s = plain.duration_s};
     if (is_shown(sample)) return with_account(std::move(plain), sample);
     drive_on_ways_of(std::move(plain));
+    std::optional<Plan> refused = find_margins();
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
-      if (trial > 0) {
-        tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
-      } else if (auto refused = find_margins()) {
-        return as_verdict(with_slack(*std::move(refused)));
-      }
+      Margins kept_too_little = margins_;
+      if (trial > 0) tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
       Plan plan = plan_with(margins_, options_);
       if (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
-      if (!is_driven(plan)) return as_verdict(std::move(plan));
+      if (!is_driven(plan) && trial == 0)
+        return as_verdict(with_slack(refused ? *std::move(refused) : std::move(plan)));
+      for (int round = 0; !is_driven(plan) && round < kRounds; ++round)
+        plan = plan_with(margins_ = between(kept_too_little, margins_), options_);
+      if (!is_driven(plan)) break;
       if (has_fixed_ways_) take_choices(plan, chosen_);
       sample = judge_.judged(plan, ++seed_);
       if (is_shown(sample)) return with_account(std::move(plan), sample);
@@ -189,9 +191,11 @@ class ConfidentPlanner {
       (share < aim_ ? too_little : enough.emplace()) = margins_;
       aim = std::clamp(aim + aim_ - share, confidence_, 1.0);
     }
-    if (!enough) return refused;
-    margins_ = *enough;
-    return std::nullopt;
+    if (enough)
+      margins_ = *enough;
+    else if (too_much)
+      margins_ = *too_much;
+    return enough ? std::nullopt : refused;
   }
 
   /// The margins of the fastest drive on these ways that keeps the confidence, for times near its own; false

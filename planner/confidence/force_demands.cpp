@@ -125,8 +125,11 @@ void ForceDemands::linearize(std::size_t leg, const ErrorPlants& errors, const s
               .far = Eigen::MatrixXd(use.cols(), 2 * std::ssize(far))};
     for (std::size_t e = 0; e < near.size(); ++e) {
       const auto column = static_cast<Eigen::Index>(e);
-      for (Eigen::Index k = 0; k < use.cols(); ++k)
-        uses.slope(k, column) = change_of(uses.nominal[k], near[e][0](row, k), near[e][1](row, k));
+      const bool two_sided = e + errors.one_sided < near.size();
+      for (Eigen::Index k = 0; k < use.cols(); ++k) {
+        const double more = near[e][0](row, k), less = near[e][1](row, k);
+        uses.slope(k, column) = two_sided ? change_of(uses.nominal[k], more, less) : 0.5 * (more - less);
+      }
       for (const Eigen::Index side : {0, 1})
         uses.far.col(2 * column + side) = far[e][static_cast<std::size_t>(side)].row(row).transpose();
     }
@@ -143,9 +146,11 @@ void ForceDemands::append_critical(Linear& linear, std::size_t first_place, cons
   };
   const auto may_saturate = [&](Eigen::Index k) {
     double growth = 1;
-    for (Eigen::Index e = 0; e < uses.far.cols(); e += 2)
-      growth *= 1 + std::max(0.0, uses.far.row(k).segment(e, 2).maxCoeff() - use[k]) / (use[k] + kSmallUse);
-    return growth * (use[k] + kSmallUse) >= 1;
+    for (Eigen::Index e = 0; e < uses.far.cols(); e += 2) {
+      const double most = uses.far.row(k).segment(e, 2).maxCoeff<Eigen::PropagateNaN>();
+      growth *= 1 + std::max(most - use[k], 0.0) / (use[k] + kSmallUse);
+    }
+    return !(growth * (use[k] + kSmallUse) < 1);  // a use that is no number is looked at, too
   };
   const auto is_below = [&](Eigen::Index k, Eigen::Index other) {
     return stretch(k) == stretch(other) &&

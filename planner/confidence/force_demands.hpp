@@ -29,6 +29,7 @@ using ShiftedPlants = std::vector<std::array<Plant, 2>>;
 /// and a factor that makes errors out of independent standard normal numbers.
 struct ErrorPlants {
   ShiftedPlants near{}, far{};
+  std::size_t one_sided{};  ///< of these pairs, the last ones: without an effect, and the nominal plant
   Eigen::MatrixXd factor{};
 };
 inline constexpr double kReach = 6.0;  ///< sigmas of an error, or of a use, that no draw exceeds

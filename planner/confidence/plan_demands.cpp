@@ -1,6 +1,7 @@
 #include "planner/confidence/plan_demands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/accounts/stretch_account.hpp"
@@ -14,18 +15,23 @@ PlanDemands::PlanDemands(const Plan& plan, const Robot& robot, const Plant& plan
       energy_(plan, plant),
       model_error_(std::ssize(nuisances_of(plant.robot))),
       model_friction_Nm_(model_friction_Nm(robot.model_energy_sigma().value_or(0.0))),
-      errors_{shifted(1), shifted(kReach), error_factor(robot)},
+      errors_{shifted(1), shifted(kReach), uncertain_effects(robot).size(), error_factor(robot)},
       forces_(plan, robot, plant, errors_) {
   if (!std::isfinite(robot.battery.capacity_Wh)) return;
-  constexpr double kSlight = 1e-6;
   const auto fraction = [&](const Plant& other) { return energy_.least_fraction(other, charge_); };
   fraction_ = fraction(plant);
   fraction_per_sigma_.resize(std::ssize(errors_.near));
+  fall_per_sigma_.resize(std::ssize(errors_.near), 2);
   for (std::size_t i = 0; i < errors_.near.size(); ++i) {
-    const double change = 0.5 * (fraction(errors_.near[i][0]) - fraction(errors_.near[i][1]));
-    fraction_per_sigma_[static_cast<Eigen::Index>(i)] = change;
-    const double drop = fraction_ - std::min(fraction(errors_.far[i][0]), fraction(errors_.far[i][1]));
-    if (std::abs(change) > kSlight) steepening_ = std::max(steepening_, drop / (kReach * std::abs(change)));
+    const auto row = static_cast<Eigen::Index>(i);
+    std::array<double, 2> near{};
+    for (const std::size_t side : {0, 1}) {
+      near[side] = fraction(errors_.near[i][side]);
+      const double far = fraction(errors_.far[i][side]);
+      fall_per_sigma_(row, static_cast<Eigen::Index>(side)) =
+          std::max({0.0, fraction_ - near[side], (fraction_ - far) / kReach});
+    }
+    fraction_per_sigma_[row] = 0.5 * (near[0] - near[1]);
   }
 }
 
@@ -74,7 +80,7 @@ std::vector<PlanDemand> PlanDemands::estimate(const Eigen::MatrixXd& errors) con
 }
 
 std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& errors, const PlantDraws& draws) const {
-  constexpr double kDoubt = 0.5;  // of the change by derivatives, beside its steepening: errors act together
+  constexpr double kTogether = 1.5;  // of the falls by one error each: errors act together
   std::vector<Plant> plants;
   for (const auto& column : errors.colwise()) plants.push_back(plant_of(draws.draw_of(column)));
   std::vector<PlanDemand> demands;
@@ -83,8 +89,9 @@ std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& errors, const Pla
     const Eigen::VectorXd of_draw = errors.col(std::ssize(demands));
     PlanDemand& demand = demands.emplace_back(PlanDemand{use, estimated_fraction(of_draw)});
     if (fraction_per_sigma_.size() == 0) continue;
-    const double drop = -fraction_per_sigma_.cwiseProduct(of_draw).cwiseMin(0.0).sum();
-    if (fraction_ - (steepening_ + kDoubt) * drop < robot_.battery.reserve_fraction)
+    const double fall =
+        fall_per_sigma_.col(0).dot(of_draw.cwiseMax(0.0)) - fall_per_sigma_.col(1).dot(of_draw.cwiseMin(0.0));
+    if (!(fraction_ - kTogether * fall >= robot_.battery.reserve_fraction))
       demand.least_fraction = energy_.least_fraction(plant, charge_);
   }
   return demands;

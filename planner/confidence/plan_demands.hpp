@@ -56,7 +56,9 @@ class PlanDemands {
   ForceDemands forces_;
   double fraction_{1.0};                  ///< the nominal plant's least state of charge
   Eigen::VectorXd fraction_per_sigma_{};  ///< none where the battery has no capacity
-  double steepening_{1};  ///< by how much more than by derivatives the charge falls with one error
+  /// By how much the state of charge falls at most, for one sigma more and less of each error (a row each):
+  /// by derivatives, or by the largest error that is drawn.
+  Eigen::MatrixX2d fall_per_sigma_{};
 };
 
 }  // namespace joulepath

@@ -180,6 +180,9 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   return std::nullopt;
 }
 
+/// Whether a leg's way is searched.
+bool searches(const LegRequest& leg) { return !leg.path && !leg.motion; }
+
 bool has_own_duration(const MissionRequest& mission) {
   return std::any_of(mission.legs.begin(), mission.legs.end(),
                      [](const LegRequest& leg) { return leg.duration_s.has_value(); });
@@ -294,16 +297,32 @@ bool may_be_faster(const Plan& plan, const MissionRequest& mission, const Missio
   return constraint == "deadline" || constraint == "duration";
 }
 
-/// The faster one of a plan and of that on the ways of least energy.
+/// Whether ways of searched legs were chosen at other prices than those without a deadline.
+bool chose_at_other_prices(const Plan& plan, const MissionRequest& mission, double first_W) {
+  if (!is_driven(plan) || mission.objective.minimize == Objective::Minimize::time) return false;
+  std::vector<double> price_W;
+  for (const LegPlan& leg : plan.legs) price_W.push_back(std::max(leg.price_of_time_W, first_W));
+  return std::any_of(mission.legs.begin(), mission.legs.end(), searches) &&
+         moved(std::vector<double>(price_W.size(), first_W), price_W);
+}
+
+/// The better one of a plan and of that on the ways of least energy: a deadline costs no more than on the
+/// ways of the mission without it.
 Plan or_on_ways_of_least_energy(Plan plan, const MissionRequest& mission, const MissionWorld& world,
                                 const PlanOptions& options, const RouteSpace* space, const Plant& plant,
                                 const Plan& known) {
-  if (space == nullptr || !may_be_faster(plan, mission, world)) return plan;
+  if (space == nullptr) return plan;
   MissionRequest cheapest = mission;
-  cheapest.objective.minimize = Objective::Minimize::energy;
-  Plan other =
-      plan_given_legs(mission, world, options, space, plant, known, first_price_W(cheapest, world, plant));
-  const bool better = is_driven(other) && (!is_driven(plan) || other.duration_s < plan.duration_s);
+  if (mission.objective.minimize == Objective::Minimize::time)
+    cheapest.objective.minimize = Objective::Minimize::energy;
+  const double first_W = first_price_W(cheapest, world, plant);
+  if (!may_be_faster(plan, mission, world) && !chose_at_other_prices(plan, mission, first_W)) return plan;
+  Plan other = plan_given_legs(mission, world, options, space, plant, known, first_W);
+  const double floor_W = lowest_price_W(mission.objective);
+  const auto cost = [&](const Plan& of) {
+    return std::isinf(floor_W) ? of.duration_s : of.energy.total_J() + floor_W * of.duration_s;
+  };
+  const bool better = is_driven(other) && (!is_driven(plan) || cost(other) < cost(plan));
   return better ? other : plan;
 }
 

@@ -112,8 +112,22 @@ TEST(SimulatorGap, IsNotWhatTheSimulatorContains) {
   EXPECT_EQ(d.corrected_robot->effects.size(), 2u);
   ASSERT_EQ(d.corrected_effects.size(), 1u) << "what the correction adds";
   EXPECT_EQ(d.corrected_effects.front().name, "turning_scrub");
+  EXPECT_EQ(d.corrected_robot->effects.back().probability, d.causes.front().probability);
   EXPECT_NE(diagnosis_sentence(d).find("the simulator contains rolling resistance"), std::string::npos)
       << diagnosis_sentence(d);
+}
+
+/// An effect of the file is the robot's for certain, even where a cause of its name adds to it.
+TEST(CorrectedFile, StatesTheProbabilityOfWhatWasFoundAlone) {
+  const EffectSetting half{.name = "rolling_resistance", .parameters = {{"coefficient", 0.006}}};
+  const Robot file = with(testing::nomad(), half), real = with(testing::nomad(), kMissingRolling);
+  const Diagnosis d = diagnose(day_of(file, real, file), {.bootstrap = 20});
+  ASSERT_EQ(names_of(d.causes), std::vector<std::string>{"rolling_resistance"}) << diagnosis_sentence(d);
+  ASSERT_TRUE(d.corrected_robot);
+  ASSERT_EQ(d.corrected_robot->effects.size(), 2u);
+  EXPECT_EQ(d.corrected_robot->effects[0].probability, 1.0);
+  EXPECT_EQ(d.corrected_robot->effects[1].probability, d.causes.front().probability);
+  EXPECT_LT(d.causes.front().probability, 1.0);
 }
 
 /// The robot's windings differ from the simulator's, and the best set holds a curve of voltage over current

@@ -292,6 +292,32 @@ TEST(Confidence, MixesAnEffectByItsProbability) {
   EXPECT_LT(sure.duration_s, 0.99 * plan.duration_s);
 }
 
+/// The plant that lacks an effect is where the estimate of a lacking draw lies: on a place whose use grows by
+/// more than half, too, where a force that changed its sign would give as much.
+TEST(Confidence, EstimatesALackingEffectByThePlantWithoutIt) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"chassis_mass_kg", 0.0}, {"model_energy", 0.0}};
+  robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.03}}, .probability = 0.7}};
+  const Plan plan = planned_for(straight(6, {.minimize = Objective::Minimize::time}), robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  const Plant plant = make_plant(robot);
+  const PlanDemands demands(plan, robot, plant, {.start_fraction = 1.0});
+  PlantDraws draws(robot, plant, 3);
+  Eigen::MatrixXd errors = draws.next_errors(1);
+  errors.setZero();
+  errors(errors.rows() - 1, 0) = kLacking;
+  const Plant lacking = plant_without(robot, {0});
+  const ForceUses without = ForceDemands(plan, robot, lacking, {}).nominal();
+  const ForceUses estimated = demands.estimate(errors)[0].use;
+  bool grew = false;
+  for (std::size_t i = 0; i < kForceLimits; ++i) {
+    if (without[i] < 0.5) continue;  // far from every limit
+    EXPECT_NEAR(estimated[i], without[i], 0.02 * without[i]) << force_limits()[i]->name;
+    grew = grew || without[i] > 1.05 * demands.nominal().use[i];
+  }
+  EXPECT_TRUE(grew);
+}
+
 /// Both wheels' friction errs on its own. A start needs a per + T <= I Kt n, braking a per - T <= I Kt n,
 /// each on both sides, and all of them use the same share of the current: so |dT| <= d on both, (2 Phi(z) -
 /// 1)^2.

@@ -133,7 +133,7 @@ TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   robot.power.sharing = PowerSharing::bus;
   robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.0151}}},
                    {.name = "dragging_wheel", .parameters = {{"torque_Nm", 0.07}}, .side = Side::right},
-                   {.name = "floor_patch", .parameters = {{"coefficient", 0.02}}, .cells = {{0, 1, 2, 3}}}};
+                   {.name = "floor_patch", .parameters = {{"coefficient", 0.02}}, .cells = {{0, 1, 2, 3}}, .probability = 0.7}};
   robot.uncertainty_correlations = {{"friction_torque_Nm", "viscous_friction_Nm_s_rad", -0.87},
                                     {"resistance_ohm", "torque_constant_Nm_A", 1.0 / 3}};
   const std::string text = robot_text(robot);
@@ -143,6 +143,8 @@ TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   EXPECT_EQ(again.payload_offset_m, robot.payload_offset_m);
   EXPECT_EQ(again.effects[1].side, Side::right);
   EXPECT_EQ(again.effects[2].cells, robot.effects[2].cells);
+  EXPECT_EQ(again.effects[2].probability, 0.7);
+  EXPECT_EQ(again.effects[1].probability, 1.0);
   EXPECT_EQ(again.footprint.polygon_m, robot.footprint.polygon_m);
   EXPECT_EQ(again.limits_by_payload[1].limit_by_key, robot.limits_by_payload[1].limit_by_key);
   EXPECT_EQ(again.uncertainty, robot.uncertainty);

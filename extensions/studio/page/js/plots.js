@@ -63,7 +63,7 @@ function plot_of(one, redraw) {
 }
 
 /** What the interval holds: the file's constants, and the model's own error where the file states it. */
-const interval_words = () => (store.robot.uncertainty.model_energy === undefined ? "95 % interval, parameters only" : "95 % interval");
+const interval_words = () => ((store.robot.uncertainty || {}).model_energy === undefined ? "95 % interval, parameters only" : "95 % interval");
 
 /** Share of the driving time for each limit that binds. */
 function legend_of(answer) {
@@ -76,7 +76,7 @@ function legend_of(answer) {
   }
   return ["Active limit: ", ...Object.entries(share).sort((a, b) => b[1] - a[1]).map(([name, time_s]) => key(`${words(name)} ${short(100 * time_s / driven_s, 2)} %`, limit_color(name), "box")),
     key("none: energy decides", free_color(), "box"),
-    ...(sure.bands ? [key(interval_words(), "color-mix(in srgb, var(--plan) 30%, var(--ground))", "box")] : [])];
+    ...(sure.bands && Object.keys(sure.bands).length ? [key(interval_words(), "color-mix(in srgb, var(--plan) 30%, var(--ground))", "box")] : [])];
 }
 
 /** The plots with the names of the limits that bind in this plan. */
@@ -108,7 +108,11 @@ export function plots_panel() {
     later(true);
     if (sure.shown) load();
   }, {"aria-pressed": "false", id: "interval", title: "the 95 % interval of power and energy that the robot's uncertainty gives"});
-  const offer = () => { interval.hidden = !Object.keys(store.robot.uncertainty || {}).length; };
+  const offer = () => {
+    interval.hidden = !Object.keys(store.robot.uncertainty || {}).length;
+    if (interval.hidden && sure.shown) Object.assign(sure, {shown: false, bands: null});
+    interval.setAttribute("aria-pressed", String(sure.shown));
+  };
   const all = button("All", () => { axis.span = null; later(); }, {"aria-label": "show the whole motion in the plots"});
   on("answer", () => { sure.bands = null; offer(); later(true); });
   on("settled", () => { if (sure.shown && store.answer) load(); });
