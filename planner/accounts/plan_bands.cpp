@@ -90,10 +90,11 @@ PlanBands plan_bands(const Plan& plan, const Plant& plant, const std::vector<dou
   if (!plan.energy_sigma_J || times_s.empty()) return {};
   const double standby_W = plant.robot.power.standby_W;
   const auto heat_of = [&](const Plan& driven, const Plant& by) {
-    return plan.winding ? winding_trace(driven, by, plan.winding->side, times_s.size()) : WindingTrace{};
+    return plan.winding ? winding_temperatures_C(driven, by, plan.winding->side, times_s)
+                        : std::vector<double>{};
   };
   const Trajectory rows = plan_trajectory_at(plan, plant, times_s);
-  const WindingTrace heat = heat_of(plan, plant);
+  const std::vector<double> heat = heat_of(plan, plant);
   ShiftedColumns power_W, energy_J, winding_C;
   for (const Nuisance& nuisance : nuisances_of(plant.robot)) {
     std::array<std::vector<double>, 2> watts, joules, celsius;
@@ -102,7 +103,7 @@ PlanBands plan_bands(const Plan& plan, const Plant& plant, const std::vector<dou
           with_error(plan, plant, nuisance, side == 0 ? nuisance.sigma : -nuisance.sigma);
       Trajectory driven = plan_trajectory_at(other.plan, other.plant, times_s);
       watts[side] = std::move(driven.battery_power_W), joules[side] = std::move(driven.energy_J);
-      celsius[side] = heat_of(other.plan, other.plant).temperature_C;
+      celsius[side] = heat_of(other.plan, other.plant);
     }
     power_W.push_back(std::move(watts)), energy_J.push_back(std::move(joules));
     winding_C.push_back(std::move(celsius));
@@ -116,7 +117,7 @@ PlanBands plan_bands(const Plan& plan, const Plant& plant, const std::vector<dou
   const Eigen::MatrixXd correlation = nuisance_correlation(plant.robot);
   PlanBands bands{.battery_power_W = band(times_s, rows.battery_power_W, power_W, model_W, correlation),
                   .energy_J = band(times_s, rows.energy_J, energy_J, model_J, correlation)};
-  if (plan.winding) bands.winding_C = band(heat.time_s, heat.temperature_C, winding_C, {}, correlation);
+  if (plan.winding) bands.winding_C = band(times_s, heat, winding_C, {}, correlation);
   if (plan.battery && bands.energy_J)
     bands.battery_fraction = charge_band(*bands.energy_J, fractions(plan, rows), plant.robot.battery);
   return bands;

@@ -144,21 +144,22 @@ std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& pla
   return account;
 }
 
-WindingTrace winding_trace(const Plan& plan, const Plant& plant, Side side, std::size_t most_rows) {
-  WindingTrace trace;
-  const double step_s = plan.duration_s / static_cast<double>(std::max<std::size_t>(1, most_rows));
-  std::pair<double, double> last;  // time and temperature
-  const auto keep = [&] {
-    trace.time_s.push_back(last.first);
-    trace.temperature_C.push_back(last.second);
-  };
+std::vector<double> winding_temperatures_C(const Plan& plan, const Plant& plant, Side side,
+                                           const std::vector<double>& times_s) {
+  std::vector<double> temperatures_C;
+  std::optional<std::pair<double, double>> last;  // time and temperature
   Heating heating(plant, [&](double time_s, const std::array<Winding, 2>& windings) {
-    last = {time_s, windings[side == Side::left ? 0 : 1].temperature_C()};
-    if (trace.time_s.empty() || time_s >= trace.time_s.back() + step_s) keep();
+    const double here_C = windings[side == Side::left ? 0 : 1].temperature_C();
+    const auto [before_s, before_C] = last.value_or(std::pair(time_s, here_C));
+    for (std::size_t k = temperatures_C.size(); k < times_s.size() && times_s[k] <= time_s; ++k) {
+      const double share = time_s > before_s ? (times_s[k] - before_s) / (time_s - before_s) : 1.0;
+      temperatures_C.push_back(std::lerp(before_C, here_C, share));
+    }
+    last = {time_s, here_C};
   });
   for (const LegPlan& leg : plan.legs) heating.add(leg);
-  if (last.first > trace.time_s.back()) keep();
-  return trace;
+  temperatures_C.resize(times_s.size(), last ? last->second : 0.0);
+  return temperatures_C;
 }
 
 std::optional<Infeasibility> winding_too_hot(const Plan& plan) {

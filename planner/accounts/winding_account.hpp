@@ -9,13 +9,9 @@ namespace joulepath {
 /// motors state no `thermal`.
 [[nodiscard]] std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& plant);
 
-/// Temperature of one winding over a plan, as in the account, at about so many instants.
-struct WindingTrace {
-  std::vector<double> time_s{};
-  std::vector<double> temperature_C{};
-};
-[[nodiscard]] WindingTrace winding_trace(const Plan& plan, const Plant& plant, Side side,
-                                         std::size_t most_rows);
+/// Temperatures (C) of one winding of a plan, as in the account, at times (s) that rise.
+[[nodiscard]] std::vector<double> winding_temperatures_C(const Plan& plan, const Plant& plant, Side side,
+                                                         const std::vector<double>& times_s);
 
 /// The verdict where a winding becomes hotter than its `max_winding_C`.
 [[nodiscard]] std::optional<Infeasibility> winding_too_hot(const Plan& plan);

@@ -101,6 +101,7 @@ TEST(PlanBands, FrictionThatIsUncertainMakesTheTemperatureUncertain) {
   const PlanBands bands = bands_of(plan, robot);
   ASSERT_TRUE(bands.winding_C);
   EXPECT_GT(bands.winding_C->sigma.back(), 0.05 * (bands.winding_C->value.back() - 25));
+  EXPECT_EQ(bands.winding_C->time_s, times_of(plan)) << "whatever instants each robot's heat was summed at";
 }
 
 /// Only what is uncertain has a band: standby heats no winding.

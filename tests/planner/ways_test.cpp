@@ -93,6 +93,33 @@ TEST(Ways, NoPlanUnderAJerkLimitIsFasterThanTheFastest) {
   }
 }
 
+/// A mission with its searched legs on the ways of a plan.
+MissionRequest on_ways_of(const Plan& plan, MissionRequest mission) {
+  for (std::size_t k = 0; k < mission.legs.size(); ++k) {
+    Path path;
+    for (const StretchPlan& stretch : plan.legs[k].stretches) path.pieces.push_back(stretch.request.piece);
+    mission.legs[k].path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)};
+  }
+  return mission;
+}
+
+/// Between the fastest drive and the cheapest one.
+TEST(Ways, ADeadlineCostsNoMoreThanOnTheWaysWithoutIt) {
+  MissionRequest mission = round_of_three();
+  const Plan cheapest = plan_of(mission, kCoarse);
+  mission.objective.minimize = Objective::Minimize::time;
+  const Plan fastest = plan_of(mission, kCoarse);
+  ASSERT_LE(std::max(cheapest.status, fastest.status), SolveStatus::feasible);
+  mission.objective.minimize = Objective::Minimize::energy;
+  for (const double share : {0.2, 0.6}) {
+    mission.objective.deadline_s = std::lerp(fastest.duration_s, cheapest.duration_s, share);
+    const Plan plan = plan_of(mission, kCoarse), same_ways = plan_of(on_ways_of(cheapest, mission), kCoarse);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    if (same_ways.status > SolveStatus::feasible) continue;
+    EXPECT_LE(plan.energy.total_J(), 1.0002 * same_ways.energy.total_J()) << share;
+  }
+}
+
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
   PlanOptions turning = kCoarse;
   turning.steps.refinement = false;  // refinement would replace turns by curves
