@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
@@ -13,6 +14,7 @@
 #include "app/terminal.hpp"
 #include "model/progress.hpp"
 #include "planner/baselines/comparison.hpp"
+#include "planner/legs/on_ways.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/plan_front.hpp"
@@ -119,7 +121,8 @@ class FrontCommand : public Command {
     LimitShares limit_shares{};
     double reserve_margin{};
     std::vector<FrontPoint> points{};
-    std::string reason{};  ///< reason why there is none
+    std::map<std::size_t, ConfidenceAccount> judged{};  ///< by the index of the point
+    std::string reason{};                               ///< reason why there is none
   };
 
   SureFront sure_front(const MissionRequest& mission, const MissionWorld& world, bool open) const {
@@ -138,7 +141,25 @@ class FrontCommand : public Command {
     sure.points =
         energy_time_front(planned_stretches(plan), points_, open ? planned_price_W(plan) : 0.0).points;
     for (FrontPoint& point : sure.points) point = sum_of(point, rest_of(plan));
+    for (const std::size_t k : chosen(sure.points.size(), kJudged))
+      if (auto account = judged(plan, mission, world, sure, sure.points[k].duration_s))
+        sure.judged[k] = *std::move(account);
     return sure;
+  }
+
+  /// What draws of the robot say of a sure front's plan in a time; none where it cannot be driven with the
+  /// front's margins, as with stops at chargers.
+  std::optional<ConfidenceAccount> judged(const Plan& plan, const MissionRequest& mission,
+                                          const MissionWorld& world, const SureFront& sure,
+                                          double duration_s) const {
+    constexpr double kSameTime = 1e-6;
+    MissionRequest timed = on_ways_of(plan, mission);
+    timed.objective.deadline_s = duration_s * (1 + kSameTime);
+    timed.objective.confidence = confidence_;
+    PlanOptions alone = with_limit_shares(options_.plan, sure.limit_shares);
+    alone.baselines = alone.path_bound = false;
+    const Plan driven = plan_mission(timed, world, alone);
+    return driven.status <= SolveStatus::feasible ? driven.confidence : std::nullopt;
   }
 
   /// The classic profiles compared with one point of the front.
@@ -193,6 +214,10 @@ class FrontCommand : public Command {
         std::cout << "\nwith the margins of the fastest drive that keeps its promises with "
                   << figure(100 * *confidence_, 4) << " %:\n";
         print_points(sure->points);
+        for (const auto& [k, account] : sure->judged)
+          std::cout << "in " << figure(sure->points[k].duration_s, 6) << " s, "
+                    << figure(100 * account.kept, 4) << " % of drawn robots keep all promises (at least "
+                    << figure(100 * account.kept_at_least, 4) << " %)\n";
       }
       print_baselines(front, beside);
       print_analysis_place(options_);
@@ -204,8 +229,12 @@ class FrontCommand : public Command {
                         {"limit_shares", sure.limit_shares},
                         {"reserve_margin_fraction", sure.reserve_margin},
                         {"points", nlohmann::json::array()}};
-    for (const FrontPoint& point : sure.points)
-      json["points"].push_back(point_json(point, options_.plan.accuracy));
+    for (std::size_t k = 0; k < sure.points.size(); ++k) {
+      nlohmann::json point = point_json(sure.points[k], options_.plan.accuracy);
+      if (const auto account = sure.judged.find(k); account != sure.judged.end())
+        point["kept"] = account->second.kept, point["kept_at_least"] = account->second.kept_at_least;
+      json["points"].push_back(std::move(point));
+    }
     return json;
   }
 
@@ -229,6 +258,7 @@ class FrontCommand : public Command {
   }
 
   static constexpr const char* kResult = "front.json";
+  static constexpr std::size_t kJudged = 3;  ///< points of a sure front, the cheapest among them
   std::optional<double> confidence_{};
   AnalysisOptions options_{};
   std::size_t points_{30};

@@ -9,6 +9,7 @@
 #include "model/printable.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/confidence/promises.hpp"
+#include "planner/legs/on_ways.hpp"
 
 namespace joulepath {
 namespace {
@@ -20,6 +21,9 @@ constexpr double kRoughly = 1e-2;  ///< accuracy of plans that only serve to fin
 constexpr double kClose = 0.006;   ///< share of draws that a plan may keep beyond its aim
 /// The plan without margins and each trial are judged once: together they are wrong with at most 5 %.
 constexpr double kErrorOfOne = 0.05 / (1 + kTrials);
+/// Of model_energy: friction of the whole mission stands for what the model lacks, and draws of more would
+/// leave none.
+constexpr double kMostUnknown = 0.25;
 constexpr double kDoubtSigmas = 3.3;  ///< of a sample's share, between what is asked and what is aimed at
 
 std::size_t draws_for(double confidence) {
@@ -116,16 +120,8 @@ class ConfidentPlanner {
  private:
   /// The legs follow the ways of a plan from now on, except where stops may be inserted.
   void drive_on_ways_of(Plan plan) {
-    given_ = mission_;
-    if (plan.visit) given_.legs = plan.visit->legs, given_.visit.clear();
+    given_ = on_ways_of(plan, mission_);
     has_fixed_ways_ = !mission_.charging && given_.legs.size() == plan.legs.size();
-    if (!has_fixed_ways_) given_ = mission_;
-    for (std::size_t k = 0; has_fixed_ways_ && k < given_.legs.size(); ++k) {
-      if (given_.legs[k].motion) continue;
-      Path path;
-      for (const StretchPlan& stretch : plan.legs[k].stretches) path.pieces.push_back(stretch.request.piece);
-      given_.legs[k].path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)};
-    }
     chosen_ = std::move(plan);
   }
 
@@ -346,6 +342,15 @@ void need_uncertainty(const MissionRequest& mission, const Robot& robot) {
 Plan confident_plan(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                     const PlanOnce& plan_once) {
   need_uncertainty(mission, world.robot);
+  const double unknown = *world.robot.model_energy_sigma();
+  if (unknown > kMostUnknown) {
+    Plan plan = plan_once(mission, world, options);
+    plan.status = SolveStatus::failed;
+    plan.message = "cannot promise " + percent(*mission.objective.confidence) + ": the model misses " +
+                   percent(unknown) + " of the energy of motion (uncertainty.model_energy), above " +
+                   percent(kMostUnknown) + "; `joulepath diagnose` names what it lacks";
+    return plan;
+  }
   return ConfidentPlanner(mission, world, options, plan_once).plan();
 }
 

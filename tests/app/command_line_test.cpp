@@ -355,6 +355,10 @@ TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
   EXPECT_LT(sure["limit_shares"]["motor_current"], 1.0);
   EXPECT_GT(sure["reserve_margin_fraction"], 0.0);
   EXPECT_GT(sure["points"][0]["duration_s"], front["points"][0]["duration_s"]);
+  std::size_t judged = 0;
+  for (const auto& point : sure["points"])
+    if (point.contains("kept_at_least")) ++judged, EXPECT_GE(point["kept_at_least"], 0.9) << point;
+  EXPECT_EQ(judged, 3u);
 }
 
 TEST(CommandLine, AProofIsToldWithWhatItIsAbout) {

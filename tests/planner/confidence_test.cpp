@@ -334,6 +334,16 @@ TEST(Confidence, OfFrictionIsThatOfTwoWheels) {
   EXPECT_GE(one_wheel * one_wheel, 0.95);
 }
 
+TEST(Confidence, IsNotPromisedForAModelThatMissesTooMuch) {
+  Robot robot = weak_robot();
+  robot.uncertainty = {{"chassis_mass_kg", 0.02}, {"model_energy", 0.3}};
+  const Plan plan = planned_for(straight(6, soonest(0.95)), robot);
+  EXPECT_EQ(plan.status, SolveStatus::failed);
+  EXPECT_NE(plan.message.find("cannot promise 95 %: the model misses 30 % of the energy of motion"),
+            std::string::npos)
+      << plan.message;
+}
+
 /// Near certainty a plan without margins is not taken for one that keeps its promises.
 TEST(Confidence, NearOneIsMeasuredThere) {
   Robot robot = weak_robot();

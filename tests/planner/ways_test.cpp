@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/accounts/battery_account.hpp"
+#include "planner/legs/on_ways.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "tests/planner/path/grids.hpp"
@@ -91,16 +92,6 @@ TEST(Ways, NoPlanUnderAJerkLimitIsFasterThanTheFastest) {
     mission.objective = {.minimize = Objective::Minimize::time};
     EXPECT_LE(plan_of(mission, kCoarse, robot).duration_s, frugal.duration_s * (1 + 1e-6)) << jerk;
   }
-}
-
-/// A mission with its searched legs on the ways of a plan.
-MissionRequest on_ways_of(const Plan& plan, MissionRequest mission) {
-  for (std::size_t k = 0; k < mission.legs.size(); ++k) {
-    Path path;
-    for (const StretchPlan& stretch : plan.legs[k].stretches) path.pieces.push_back(stretch.request.piece);
-    mission.legs[k].path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)};
-  }
-  return mission;
 }
 
 /// Between the fastest drive and the cheapest one.
