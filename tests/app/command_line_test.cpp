@@ -266,6 +266,29 @@ TEST(CommandLine, APathIsComparedAtItsTimeWithItsPayload) {
   EXPECT_LE(compared(" --payload 5")[0]["energy_J"].get<double>(), plan["energy_J"].get<double>());
 }
 
+/// A sum over the stretches that it can drive, or the dwell alone, is no energy of this mission.
+TEST(CommandLine, AProfileThatCannotBeDrivenHasNoFigures) {
+  const ScratchDirectory scratch;
+  const std::string mission =
+      scratch.write("m.yaml", "robot: " JOULEPATH_SOURCE_DIR
+                              "/scenarios/robots/amr_150kg.yaml\nlegs:\n"
+                              "  - {path: {bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]}, dwell_s: 3}\n");
+  std::size_t not_driven = 0;
+  for (const auto& [command, list] :
+       {std::pair{"compare ", "profiles"}, {"front --points 3 ", "baselines"}}) {
+    const auto result = run_program(scratch, command + mission + " --nodes 40 --json");
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const auto& profile : nlohmann::json::parse(result.out)[list]) {
+      const bool feasible = profile["feasible"];
+      not_driven += feasible ? 0 : 1;
+      for (const char* key : {"energy_J", "motion_energy_J", "duration_s", "optimum_J", "optimum_motion_J"})
+        EXPECT_EQ(profile[key].is_null(), !feasible) << key << profile;
+      EXPECT_EQ(profile["reason"].get<std::string>().empty(), feasible) << profile;
+    }
+  }
+  EXPECT_GT(not_driven, 0u) << "a limit of jerk, which profiles with jumps of the acceleration do not keep";
+}
+
 TEST(CommandLine, AMissionOfTheSamePathHasTheSamePlan) {
   const ScratchDirectory scratch;
   const std::string curve = "bezier_m: [[[0, 0], [2.7, 0], [2.7, 0], [2.7, 2.7]]]";
