@@ -101,15 +101,25 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
   return reason;
 }
 
+[[noreturn]] void refuse_start(const MissionRequest& mission, const RouteVerdict& verdict) {
+  const std::string free = "a free place, the whole footprint and clearance_m around it",
+                    hint = "short by " + metres(verdict.short_by_m);
+  if (mission.start.station.empty() && !mission.marks.keys.contains("start"))
+    throw ConfigError({.mark = mission.marks.at("legs"),
+                       .key = "start",
+                       .found = "nothing, and at the map's origin of coordinates " + verdict.message,
+                       .accepted = "station, or x_m and y_m, of " + free,
+                       .hint = hint});
+  refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
+         "a start where the robot does not fit: " + verdict.message, free, hint);
+}
+
 LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                        const MissionRequest& mission, const RouteSpace& space, const PlanOptions& options) {
   const Station& goal = mission.stations.at(leg.to);
   const RouteResult route = plan_route(space, route_request(leg, start, mission, options));
   if (route.verdict.status == RouteStatus::start_blocked && leg_index == 0)
-    refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
-           "a start where the robot does not fit: " + route.verdict.message,
-           "a free place, the whole footprint and clearance_m around it",
-           "short by " + metres(route.verdict.short_by_m));
+    refuse_start(mission, route.verdict);
   if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal, leg.marks)};
   return {.path = route.path, .source = route.searched_by};
 }

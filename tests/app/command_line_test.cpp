@@ -194,6 +194,22 @@ TEST(CommandLine, AStopWhereTheRobotDoesNotFitIsNamedByFileAndLine) {
   EXPECT_NE(result.err.find("m.yaml:6:10: legs[0].to"), std::string::npos) << result.err;
 }
 
+/// Without `start:` the robot begins at the map's origin of coordinates, which is mostly a corner of the map.
+TEST(CommandLine, AMissionWithoutAStartIsNamedByFileAndLine) {
+  const ScratchDirectory scratch;
+  const std::string good = kBroken + "good/";
+  const std::string mission =
+      scratch.write("m.yaml", "robot: " + good + "robot.yaml\nmap: " + good +
+                                  "map.yaml\nstations: {a: {x_m: 0.5, y_m: 0.5}}\nlegs:\n  - {to: a}\n");
+  for (const std::string& command : {"check " + mission, "plan " + mission + " --out " + scratch.at("out")}) {
+    const auto result = run_program(scratch, command);
+    EXPECT_EQ(result.code, 2) << command;
+    for (const char* says :
+         {"m.yaml:5:3: start: found nothing, ", "accepted: station, or x_m and y_m, of a free place"})
+      EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+  }
+}
+
 TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
   const ScratchDirectory scratch;
   for (const auto& entry : std::filesystem::directory_iterator(kBroken + "dataset")) {
