@@ -85,6 +85,15 @@ std::string unknown_argument(const CLI::App& app) {
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 
+/// Whether --json is given.
+bool prints_data(const CLI::App& app) {
+  bool asked = false;
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      asked = asked || (option->check_lname("json") && option->count() > 0);
+  return asked;
+}
+
 /// A check of a finite number whose message says what was found and what is accepted.
 CLI::Validator number_check(const std::string& accepted, bool (*fits)(double)) {
   const auto check = [accepted, fits](const std::string& text) {
@@ -220,6 +229,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), *app);
   }
+  parsed.prints_data = prints_data(*app);
   return parsed;
 }
 

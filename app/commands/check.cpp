@@ -99,7 +99,7 @@ class Check : public Command {
       }
       finish_steps();
     }
-    if (!options_.quiet && !options_.json) std::cout << printable_text(proposed());
+    if (!options_.quiet && !options_.json) print_whole_lines(std::cout, printable_text(proposed()));
     if (options_.json)
       std::cout << results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return code;

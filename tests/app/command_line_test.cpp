@@ -504,6 +504,47 @@ TEST(CommandLine, NoLineIsWiderThanOneHundredAndTenColumns) {
   check(run_program(scratch, "front --points 4" + mission + scratch.at("f")).out, "front");
 }
 
+/// The text of a terminal with its folded lines put together again, as a pipe gets them.
+std::string unfolded(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+  return text;
+}
+
+/// Errors, notes and summaries on a terminal; a pipe gets whole lines, as other programs read them by line.
+TEST(CommandLine, NoLineOnATerminalIsWiderThanOneHundredAndTenColumns) {
+  const ScratchDirectory scratch;
+  if (shown_on_terminal("--version").empty()) GTEST_SKIP() << "no terminal here";
+  write_drive(scratch, 1);
+  ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
+  const std::string broken = kBroken + "mission/unknown_leg_key.yaml", drive = scratch.at("m.yaml"),
+                    start = scratch.at("start/"), out = " --force --out " + scratch.at("out");
+  std::size_t folded = 0;
+  for (const std::string& command :
+       {"check " + broken + " " + drive,
+        "check --brief " + start + "dataset.yaml " + kBroken + "robot/other_kind.yaml",
+        "plan " + broken + out, "plan --no-such-option-of-this-command " + drive + out,
+        "diagnose " + start + "dataset.yaml" + out, "diagnose " + broken + out,
+        "calibrate " + start + "dataset.yaml" + out, "batch " + kBroken + "mission -q --nodes 20" + out,
+        "export " + drive + " --to no_such_format" + out, "front " + drive + " --nodes 20" + out}) {
+    const ProgramResult piped = run_program(scratch, command);
+    const std::string shown = shown_on_terminal(command);
+    EXPECT_FALSE(shown.empty()) << command;
+    std::istringstream lines(shown);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_one_name = line.find_last_of(' ') + 1 == line.find_first_not_of(' ');
+      EXPECT_TRUE(line.size() <= 110 || is_one_name) << command << ": " << line;
+    }
+    std::istringstream whole(piped.err);
+    for (std::string line; std::getline(whole, line);) {
+      folded += line.size() > 110 ? 1 : 0;
+      EXPECT_NE(unfolded(shown).find(unfolded(line)), std::string::npos) << command << ": " << line << shown;
+    }
+  }
+  EXPECT_GT(folded, 3u) << "long lines in the pipe";
+  const std::string command = "check --json " + broken;
+  EXPECT_EQ(shown_on_terminal(command), run_program(scratch, command).out);
+}
+
 /// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.
 TEST(CommandLine, CheckTriesAMissionCoarsely) {
   const ScratchDirectory scratch;
