@@ -48,7 +48,8 @@ inline std::string shown_on_terminal(const std::string& arguments) {
   const std::string name = ::ptsname(terminal);
   const int held = ::open(name.c_str(), O_RDWR | O_NOCTTY);  // reading ends when nobody holds it open
   const std::string command =
-      "NO_COLOR=1 '" JOULEPATH_PROGRAM "' " + arguments + " </dev/null >'" + name + "' 2>&1";
+      "env -u JOULEPATH_DATA_DIR -u HOME -u XDG_CACHE_HOME NO_COLOR=1 '" JOULEPATH_PROGRAM "' " + arguments +
+      " </dev/null >'" + name + "' 2>&1";
   const auto run = std::async(std::launch::async, [&] {
     const int status = std::system(command.c_str());
     ::close(held);
