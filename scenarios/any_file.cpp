@@ -115,11 +115,15 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
 FileSummary summary_of_mission_list(const std::string& file, const ReadOptions& options) {
   const std::vector<MissionItem> items = mission_items(file);
   FileSummary summary{"missions", counted(items.size(), "mission"), {}};
-  for (const MissionItem& item : items) {
-    const MissionRequest mission = mission_from(document_of(item), options);
-    for (const std::string& note : world_notes(mission, read_world(mission, options), options))
-      if (std::ranges::find(summary.notes, note) == summary.notes.end()) summary.notes.push_back(note);
-  }
+  for (const MissionItem& item : items) try {
+      const MissionRequest mission = mission_from(document_of(item), options);
+      for (const std::string& note : world_notes(mission, read_world(mission, options), options))
+        if (std::ranges::find(summary.notes, note) == summary.notes.end()) summary.notes.push_back(note);
+    } catch (const ConfigError& error) {
+      summary.errors.push_back(error);
+    }
+  if (!summary.errors.empty())
+    summary.text += ", " + std::to_string(summary.errors.size()) + " cannot be read";
   return summary;
 }
 

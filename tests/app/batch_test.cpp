@@ -54,6 +54,25 @@ TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   }
 }
 
+TEST(Batch, CheckTellsEveryBrokenLineOfAList) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string lines =
+      scratch.write("m.jsonl", mission("a", 3) + "\nbroken{{{\n" + mission("b", 3, "none.yaml") + "\n" +
+                                   mission("c", 4) + "\n{\"robot\": \"robot.yaml\", \"leg\": []}\n");
+  const auto told = run_program(scratch, "check " + lines);
+  EXPECT_EQ(told.code, 1) << told.err;
+  EXPECT_NE(told.out.find("m.jsonl: broken (missions: 5 missions, 3 cannot be read)"), std::string::npos)
+      << told.out;
+  for (const char* line : {"m.jsonl:2:", "m.jsonl:3:", "m.jsonl:5:"})
+    EXPECT_NE(told.err.find(line), std::string::npos) << line << told.err;
+  EXPECT_EQ(told.err.find("m.jsonl:1:"), std::string::npos) << told.err;
+  const auto json = Json::parse(run_program(scratch, "check --json " + lines).out).at(0);
+  EXPECT_FALSE(json.at("ok").get<bool>());
+  ASSERT_EQ(json.at("errors").size(), 3u) << json;
+  EXPECT_EQ(json["errors"][2].at("line"), 5) << json;
+}
+
 TEST(Batch, ARowSaysWhatItsPromisesAreKeptWith) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml"));
