@@ -220,6 +220,9 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   } catch (const CLI::RequiredError& error) {
     // A missing argument may be a mistyped one: an unknown argument is reported first.
     return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
+  } catch (const CLI::ValidationError& error) {
+    // The value of a mistyped option may have been taken as one more file.
+    return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
   } catch (const CLI::Success& success) {
     std::ostringstream output;
     const int code = app->exit(success, output, output);

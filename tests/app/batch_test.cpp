@@ -54,6 +54,32 @@ TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   }
 }
 
+/// A shell's `*.yaml` is a list of files.
+TEST(Batch, SeveralFilesAreOneList) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  std::string files;
+  for (const char* name : {"a", "b"})
+    files += " " + scratch.write(name + std::string(".yaml"), mission(name, 3));
+  files += " " + scratch.write("m.jsonl", mission("c", 4) + "\n" + mission("d", 5) + "\n");
+  const std::string options = " -q --nodes 20 --out " + scratch.at("out");
+  const auto result = run_program(scratch, "batch" + files + options);
+  EXPECT_EQ(result.code, 0) << result.err;
+  std::string names;
+  for (const Json& line : lines_of(scratch.at("out/results.jsonl"))) {
+    EXPECT_TRUE(line.contains("energy_J")) << line;
+    names += line.at("name").get<std::string>();
+  }
+  EXPECT_EQ(names, "abcd");
+  EXPECT_NE(text_of(scratch.at("out/report.html")).find("a.yaml and 2 other files"), std::string::npos);
+  const auto absent = run_program(scratch, "batch" + files + " none.yaml --force" + options);
+  EXPECT_EQ(absent.code, 2);
+  EXPECT_NE(absent.err.find("none.yaml"), std::string::npos) << absent.err;
+  const auto mistyped = run_program(scratch, "batch" + files + " --ouut " + scratch.at("other"));
+  EXPECT_NE(mistyped.err.find("unknown argument --ouut (did you mean --out?)"), std::string::npos)
+      << mistyped.err;
+}
+
 TEST(Batch, CheckTellsEveryBrokenLineOfAList) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
