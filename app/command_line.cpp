@@ -1,12 +1,15 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <type_traits>
 
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/text/document.hpp"
 
@@ -44,8 +47,19 @@ std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen
   return app;
 }
 
+/// The words that a shortened one begins: `--price` of `--price-per-kWh`.
+std::vector<std::string> words_begun(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t kTellingLetters = 3;
+  std::vector<std::string> words;
+  if (word.size() < kTellingLetters + std::min(word.find_first_not_of('-'), word.size())) return words;
+  std::ranges::copy_if(known, std::back_inserter(words),
+                       [&](const std::string& one) { return one.starts_with(word); });
+  return words;
+}
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(word, known);
+  const std::vector<std::string> begun = words_begun(word, known);
+  const std::string near = begun.empty() ? nearest_word(word, known) : text_of_list(begun, " or ");
   return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 

@@ -235,6 +235,22 @@ TEST(CommandLine, AnUnknownArgumentIsReportedBeforeAMissingOne) {
             std::string::npos);
 }
 
+TEST(CommandLine, AShortenedWordIsToldInFull) {
+  const ScratchDirectory scratch;
+  const auto told = [&](const std::string& arguments) {
+    const auto result = run_program(scratch, arguments + " --out " + scratch.at("out"));
+    EXPECT_EQ(result.code, 2) << arguments;
+    return result.err;
+  };
+  const std::string price = told("plan m.yaml --price 0.3"), format = told("export m.yaml --to traj"),
+                    slip = told("export m.yaml --to edgs");
+  EXPECT_NE(price.find("unknown argument --price (did you mean --price-per-kWh?)"), std::string::npos)
+      << price;
+  EXPECT_NE(format.find("(did you mean trajectory?)"), std::string::npos) << format;
+  EXPECT_NE(slip.find("(did you mean edges?)"), std::string::npos) << slip;
+  EXPECT_NE(run_program(scratch, "comp").err.find("did you mean compare or completion?"), std::string::npos);
+}
+
 TEST(CommandLine, ExportWritesAllItsFilesOrNone) {
   const ScratchDirectory scratch;
   scratch.write("m.yaml", "robot: " JOULEPATH_SOURCE_DIR
