@@ -41,7 +41,9 @@ void tell_error(const ConfigError& error) {
   std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
 }
 
-bool is_sound(const FileSummary& summary) { return summary.data_checks.empty() && summary.errors.empty(); }
+bool is_sound(const FileSummary& summary) {
+  return summary.data_checks.empty() && summary.errors.empty() && summary.question.empty();
+}
 
 /// What a coarse plan of a mission runs into: a start or a stop without room, a place that no way leads to, a
 /// deadline that is too early. Its paths are not refined, so a plan may arrive a little earlier.
@@ -121,6 +123,7 @@ class Check : public Command {
       result["data_checks"] = data_checks_json(summary.data_checks);
       if (!brief_) result["isolability"] = isolability_json(summary.isolability);
     }
+    if (!summary.question.empty()) result["question"] = summary.question;
     for (const ConfigError& error : summary.errors) result["errors"].push_back(error_json(error));
     if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
     return result;
@@ -174,6 +177,7 @@ class Check : public Command {
                  : summary.errors.empty() ? "suspect"
                                           : "broken")
         << " (" << summary.kind << (summary.text.empty() ? "" : ": " + printable(summary.text)) << ")\n";
+    if (!summary.question.empty()) std::cout << "  " << printable(summary.question) << '\n';
     for (const DataCheck& check : summary.data_checks)
       std::cout << "  " << printable(data_check_text(check)) << '\n';
     for (const ConfigError& error : summary.errors) tell_error(error);

@@ -464,6 +464,35 @@ TEST(CommandLine, ABriefCheckHoldsTheDataChecksAlone) {
   EXPECT_TRUE(whole.contains("isolability"));
 }
 
+/// Eight times the mass: no fault of a channel. Another motor: faults of channels, after the question.
+TEST(CommandLine, CheckAsksForTheRobotOfTheRunsFirst) {
+  const ScratchDirectory scratch;
+  ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
+  const std::string day = text_of(scratch.at("start/dataset.yaml")),
+                    robot = text_of(scratch.at("start/robot.yaml"));
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    const auto at = text.find(what);
+    return at == std::string::npos ? text : text.replace(at, what.size(), by);
+  };
+  scratch.write("start/heavy.yaml", replaced(robot, "chassis_mass_kg: 21.2", "chassis_mass_kg: 169.6"));
+  scratch.write("start/amr.yaml", text_of(JOULEPATH_SOURCE_DIR "/scenarios/robots/amr_150kg.yaml"));
+  for (const std::string name : {"heavy.yaml", "amr.yaml"}) {
+    const std::string dataset =
+        scratch.write("start/other.yaml", replaced(day, "robot: robot.yaml", "robot: " + name));
+    const auto told = run_program(scratch, "check --brief " + dataset);
+    EXPECT_EQ(told.code, 1) << told.out;
+    const auto asked = told.out.find(name + " the right robot file? ");
+    EXPECT_NE(asked, std::string::npos) << told.out;
+    EXPECT_LT(asked, told.out.find("scaled. ")) << told.out;
+    const auto json = nlohmann::json::parse(run_program(scratch, "check --json --brief " + dataset).out)[0];
+    EXPECT_FALSE(json.at("ok").get<bool>());
+    EXPECT_TRUE(json.contains("question"));
+  }
+  const auto own = run_program(scratch, "check --brief " + scratch.at("start/dataset.yaml"));
+  EXPECT_EQ(own.code, 0) << own.out;
+  EXPECT_EQ(own.out.find("right robot file"), std::string::npos) << own.out;
+}
+
 TEST(CommandLine, CheckContinuesAfterABadFileAndReportsAllAsJson) {
   const ScratchDirectory scratch;
   const auto result = run_program(
