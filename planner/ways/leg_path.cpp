@@ -105,7 +105,7 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
   const std::string free = "a free place, the whole footprint and clearance_m around it",
                     hint = "short by " + metres(verdict.short_by_m);
   if (mission.start.station.empty() && !mission.marks.keys.contains("start"))
-    throw ConfigError({.mark = mission.marks.at("legs"),
+    throw ConfigError({.mark = mission.marks.at(mission.visit.empty() ? "legs" : "visit"),
                        .key = "start",
                        .found = "nothing, and at the map's origin of coordinates " + verdict.message,
                        .accepted = "station, or x_m and y_m, of " + free,
@@ -135,6 +135,11 @@ RouteRequest route_request(const LegRequest& leg, const LegStart& start, const M
           .goal_heading_rad = goal.heading_rad,
           .start_heading_free = start.heading_free,
           .seed = options.seed};
+}
+
+void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space, const RouteRequest& way) {
+  const auto verdict = blocked_ends(space, way);
+  if (verdict && verdict->status == RouteStatus::start_blocked) refuse_start(mission, *verdict);
 }
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,

@@ -198,15 +198,18 @@ TEST(CommandLine, AStopWhereTheRobotDoesNotFitIsNamedByFileAndLine) {
 TEST(CommandLine, AMissionWithoutAStartIsNamedByFileAndLine) {
   const ScratchDirectory scratch;
   const std::string good = kBroken + "good/";
-  const std::string mission =
-      scratch.write("m.yaml", "robot: " + good + "robot.yaml\nmap: " + good +
-                                  "map.yaml\nstations: {a: {x_m: 0.5, y_m: 0.5}}\nlegs:\n  - {to: a}\n");
-  for (const std::string& command : {"check " + mission, "plan " + mission + " --out " + scratch.at("out")}) {
-    const auto result = run_program(scratch, command);
-    EXPECT_EQ(result.code, 2) << command;
-    for (const char* says :
-         {"m.yaml:5:3: start: found nothing, ", "accepted: station, or x_m and y_m, of a free place"})
-      EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+  const std::string head = "robot: " + good + "robot.yaml\nmap: " + good +
+                           "map.yaml\nstations: {a: {x_m: 0.5, y_m: 0.5}, b: {x_m: 0.6, y_m: 0.5}}\n";
+  for (const std::string stops : {"legs:\n  - {to: a}\n", "visit:\n  - {go: a}\n  - {go: b}\n"}) {
+    const std::string mission = scratch.write("m.yaml", head + stops);
+    for (const std::string& command :
+         {"check " + mission, "plan " + mission + " --out " + scratch.at("out")}) {
+      const auto result = run_program(scratch, command);
+      EXPECT_EQ(result.code, 2) << command << stops;
+      for (const char* says :
+           {"m.yaml:5:3: start: found nothing, ", "accepted: station, or x_m and y_m, of a free place"})
+        EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    }
   }
 }
 
