@@ -1,12 +1,15 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <type_traits>
 
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/text/document.hpp"
 
@@ -44,8 +47,19 @@ std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen
   return app;
 }
 
+/// The words that a shortened one begins: `--price` of `--price-per-kWh`.
+std::vector<std::string> words_begun(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t kTellingLetters = 3;
+  std::vector<std::string> words;
+  if (word.size() < kTellingLetters + std::min(word.find_first_not_of('-'), word.size())) return words;
+  std::ranges::copy_if(known, std::back_inserter(words),
+                       [&](const std::string& one) { return one.starts_with(word); });
+  return words;
+}
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(word, known);
+  const std::vector<std::string> begun = words_begun(word, known);
+  const std::string near = begun.empty() ? nearest_word(word, known) : text_of_list(begun, " or ");
   return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 
@@ -83,6 +97,15 @@ std::string unknown_argument(const CLI::App& app) {
            ", one file too many, accepted: one (a dataset file lists several logs; `batch` plans "
            "several missions)";
   return "unknown argument " + argument + did_you_mean(argument, names);
+}
+
+/// Whether --json is given.
+bool prints_data(const CLI::App& app) {
+  bool asked = false;
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      asked = asked || (option->check_lname("json") && option->count() > 0);
+  return asked;
 }
 
 /// A check of a finite number whose message says what was found and what is accepted.
@@ -211,6 +234,9 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   } catch (const CLI::RequiredError& error) {
     // A missing argument may be a mistyped one: an unknown argument is reported first.
     return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
+  } catch (const CLI::ValidationError& error) {
+    // The value of a mistyped option may have been taken as one more file.
+    return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
   } catch (const CLI::Success& success) {
     std::ostringstream output;
     const int code = app->exit(success, output, output);
@@ -220,6 +246,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), *app);
   }
+  parsed.prints_data = prints_data(*app);
   return parsed;
 }
 

@@ -62,6 +62,7 @@ struct ParsedCommandLine {
   std::string error{};   ///< for stderr: the mistake
   std::string hint{};    ///< for stderr, below the error
   int exit_code{kDone};
+  bool prints_data{};  ///< stdout is for other programs, which read whole lines
 };
 
 [[nodiscard]] ParsedCommandLine parse_command_line(int argc, const char* const* argv,

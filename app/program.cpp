@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include "app/build_id.hpp"
@@ -56,10 +57,13 @@ int guarded(Command& command) {
 }  // namespace
 
 int program_main(int argc, char** argv) try {
+  const FoldedTerminal messages(std::cerr);
   const Commands commands = all_commands();
   const std::string version = JOULEPATH_VERSION " (build " + std::string(kBuildId) + ")";
   const ParsedCommandLine parsed = parse_command_line(argc, argv, commands, version);
   if (!parsed.error.empty()) return tell(parsed.error, parsed.exit_code, parsed.hint);
+  std::optional<FoldedTerminal> results;
+  if (!parsed.prints_data) results.emplace(std::cout);
   if (parsed.command) return guarded(*parsed.command);
   (parsed.exit_code == kDone ? std::cout : std::cerr) << parsed.output;
   std::cout.flush();

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <streambuf>
 
 namespace joulepath {
 namespace {
@@ -33,14 +34,29 @@ const char* code_of(Paint paint) {
   return "";
 }
 
+bool is_terminal(const std::ostream& stream) {
+  if (stream.rdbuf() == std::cout.rdbuf()) return isatty(STDOUT_FILENO) == 1;
+  if (stream.rdbuf() == std::cerr.rdbuf()) return isatty(STDERR_FILENO) == 1;
+  return false;
+}
+
 /// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
 bool is_colored(const std::ostream& stream) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* term = std::getenv("TERM");
   if ((no_color && *no_color) || !term || std::strcmp(term, "dumb") == 0) return false;
-  if (stream.rdbuf() == std::cout.rdbuf()) return isatty(STDOUT_FILENO) == 1;
-  if (stream.rdbuf() == std::cerr.rdbuf()) return isatty(STDERR_FILENO) == 1;
-  return false;
+  return is_terminal(stream);
+}
+
+/// Bytes of a line that fit into so many columns: colors and the further bytes of a character take none.
+std::size_t bytes_within(const std::string& line, std::size_t columns) {
+  bool in_color = false;
+  for (std::size_t k = 0, used = 0; k < line.size(); ++k) {
+    if (line[k] == '\033') in_color = true;
+    if (!in_color && (static_cast<unsigned char>(line[k]) & 0xC0) != 0x80 && ++used > columns) return k;
+    if (line[k] == 'm') in_color = false;
+  }
+  return line.size();
 }
 
 }  // namespace
@@ -68,9 +84,10 @@ std::string folded(const std::string& text, std::size_t indent) {
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t end = std::min(text.find('\n', from), text.size());
     std::string line = text.substr(from, end - from);
-    while (line.size() > kTerminalColumns) {
-      const std::size_t cut = line.find_last_of(" ,", kTerminalColumns - 1);
-      if (cut == std::string::npos || line.find_first_not_of(' ') > cut) break;
+    for (std::size_t room = 0; (room = bytes_within(line, kTerminalColumns)) < line.size();) {
+      std::size_t cut = line.find_last_of(" ,", room - 1);
+      if (cut == std::string::npos || line.find_first_not_of(' ') > cut) cut = line.find(' ', room);
+      if (cut == std::string::npos) break;
       out += line.substr(0, cut + (line[cut] == ',')) + "\n";
       line = std::string(indent, ' ') + line.substr(cut + 1);
     }
@@ -78,6 +95,58 @@ std::string folded(const std::string& text, std::size_t indent) {
     from = end + 1;
   }
   return out;
+}
+
+/// Passes complete lines on, folded: what follows stands two columns further right than the line.
+class FoldingBuffer : public std::streambuf {
+ public:
+  explicit FoldingBuffer(std::streambuf& to) : to_(to) {}
+  FoldingBuffer(const FoldingBuffer&) = delete;
+  FoldingBuffer& operator=(const FoldingBuffer&) = delete;
+  ~FoldingBuffer() override { pass_on(); }
+
+  [[nodiscard]] std::streambuf& target() { return to_; }
+  void keep_whole(const std::string& text) {
+    pass_on();
+    to_.sputn(text.data(), static_cast<std::streamsize>(text.size()));
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    line_ += traits_type::to_char_type(c);
+    return line_.back() != '\n' || pass_on() ? c : traits_type::eof();
+  }
+
+  int sync() override { return to_.pubsync(); }
+
+ private:
+  bool pass_on() {
+    const std::string text = folded(line_, std::min(line_.find_first_not_of(' '), line_.size()) + 2);
+    line_.clear();
+    const auto size = static_cast<std::streamsize>(text.size());
+    return to_.sputn(text.data(), size) == size;
+  }
+
+  std::streambuf& to_;
+  std::string line_{};
+};
+
+FoldedTerminal::FoldedTerminal(std::ostream& stream)
+    : stream_(stream),
+      buffer_(is_terminal(stream) ? std::make_unique<FoldingBuffer>(*stream.rdbuf()) : nullptr) {
+  if (buffer_) stream_.rdbuf(buffer_.get());
+}
+
+FoldedTerminal::~FoldedTerminal() {
+  if (buffer_) stream_.rdbuf(&buffer_->target());
+}
+
+void print_whole_lines(std::ostream& stream, const std::string& text) {
+  if (auto* const folding = dynamic_cast<FoldingBuffer*>(stream.rdbuf()))
+    folding->keep_whole(text);
+  else
+    stream << text;
 }
 
 void Table::print(std::ostream& stream) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,25 @@ constexpr std::size_t kTerminalColumns = 110;
 
 /// Lines above that width are broken at spaces and commas; what follows is indented.
 [[nodiscard]] std::string folded(const std::string& text, std::size_t indent);
+
+class FoldingBuffer;
+
+/// While it lives, the lines of std::cout or std::cerr are folded where they are shown on a terminal. Files
+/// and pipes get whole lines: other programs read `file:line:column: key: ...`.
+class FoldedTerminal {
+ public:
+  explicit FoldedTerminal(std::ostream& stream);
+  FoldedTerminal(const FoldedTerminal&) = delete;
+  FoldedTerminal& operator=(const FoldedTerminal&) = delete;
+  ~FoldedTerminal();
+
+ private:
+  std::ostream& stream_;
+  std::unique_ptr<FoldingBuffer> buffer_;  ///< null: no terminal
+};
+
+/// Writes the text of a file; its lines stay whole on a terminal, too.
+void print_whole_lines(std::ostream& stream, const std::string& text);
 
 /// A plain table: first column left, the others right; widths from the content (UTF-8 counts by character).
 /// A table that would be too wide leaves out its columns of zeros.

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "diagnosis/checks/data_checks.hpp"
-#include "diagnosis/checks/foreign_robot.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/correction/all_clear.hpp"
 #include "diagnosis/correction/ceiling.hpp"
@@ -12,7 +11,7 @@
 #include "diagnosis/correction/runs_apart.hpp"
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
-#include "diagnosis/evidence/delay_search.hpp"
+#include "diagnosis/evidence/another_robot.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/next_run/next_run.hpp"
@@ -30,33 +29,6 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
           .data_checks = std::move(checks),
           .missing_channels = survey.missing_channels,
           .notes = survey.notes};
-}
-
-/// Whether the checks found a fault of the drive's channels that is an excuse for other constants. A dead
-/// channel is none: its readings determined the constants.
-bool has_excuse(const std::vector<DataCheck>& checks) {
-  return std::ranges::any_of(checks, [](const DataCheck& check) {
-    return check.kind != "dead" && !check.channel.starts_with("battery_");
-  });
-}
-
-/// A fault of single runs is none of the file: another robot's file is wrong in the runs without one, too.
-/// Another clock, or a filter of the wheel speeds, imitates another resistance: the logs are read without it.
-std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, const RunsByUse& runs,
-                                                        const std::vector<DataCheck>& checks) {
-  std::set<std::size_t> faulty;
-  for (const DataCheck& check : checks)
-    if (!check.run.empty()) faulty.insert(check.runs.begin(), check.runs.end());
-  std::vector<RunSignals> sound;
-  std::ranges::copy_if(runs.signals, std::back_inserter(sound),
-                       [&](const RunSignals& run) { return !faulty.contains(run.run_index); });
-  const bool excused = has_excuse(checks);
-  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound, excused).empty())
-    return {};
-  const std::vector<ForeignConstant> constants = foreign_constants(dataset.robot, runs.signals, excused);
-  const double delay_s = constants.empty() ? 0.0 : rough_channel_delay_s(runs.diagnosis);
-  return delay_s == 0 ? constants
-                      : foreign_constants(dataset.robot, read_signals(runs.diagnosis, delay_s), excused);
 }
 
 /// Causes relative to another robot's constants say nothing about this one.

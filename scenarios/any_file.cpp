@@ -11,6 +11,7 @@
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/pose_notes.hpp"
 #include "diagnosis/checks/survey.hpp"
+#include "diagnosis/evidence/another_robot.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "model/abilities.hpp"
@@ -27,6 +28,7 @@
 #include "scenarios/mission_files/path_file.hpp"
 #include "scenarios/mission_files/world_notes.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/result_files/diagnosis_sentence.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 #include "scenarios/robot_files/robot_sources.hpp"
@@ -115,11 +117,15 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
 FileSummary summary_of_mission_list(const std::string& file, const ReadOptions& options) {
   const std::vector<MissionItem> items = mission_items(file);
   FileSummary summary{"missions", counted(items.size(), "mission"), {}};
-  for (const MissionItem& item : items) {
-    const MissionRequest mission = mission_from(document_of(item), options);
-    for (const std::string& note : world_notes(mission, read_world(mission, options), options))
-      if (std::ranges::find(summary.notes, note) == summary.notes.end()) summary.notes.push_back(note);
-  }
+  for (const MissionItem& item : items) try {
+      const MissionRequest mission = mission_from(document_of(item), options);
+      for (const std::string& note : world_notes(mission, read_world(mission, options), options))
+        if (std::ranges::find(summary.notes, note) == summary.notes.end()) summary.notes.push_back(note);
+    } catch (const ConfigError& error) {
+      summary.errors.push_back(error);
+    }
+  if (!summary.errors.empty())
+    summary.text += ", " + std::to_string(summary.errors.size()) + " cannot be read";
   return summary;
 }
 
@@ -133,11 +139,15 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
                       notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
+  summary.question =
+      right_robot_question(dataset.robot_file, constants_of_another_robot(dataset, runs, summary.data_checks),
+                           summary.data_checks);
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) summary.notes.push_back(note);
   std::ranges::move(motor_notes(dataset), std::back_inserter(summary.notes));
   std::ranges::move(pose_notes(dataset), std::back_inserter(summary.notes));
-  if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
+  if (brief || !summary.data_checks.empty() || !summary.question.empty() || runs.signals.empty())
+    return summary;
   summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));
   return summary;

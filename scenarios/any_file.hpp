@@ -18,6 +18,8 @@ struct FileSummary {
   Isolability isolability{};             ///< of a dataset whose channels are sound
   std::string proposal{};                ///< a proposed file: the dataset of a bag
   double begins_s{};                     ///< of a bag: the stamp of its first message; 0: unknown
+  std::vector<ConfigError> errors{};     ///< of the lines of a list of missions that cannot be read
+  std::string question{};                ///< of a dataset whose runs look like another robot's
   bool proposes{};  ///< files of this kind may have a proposal, which goes to standard output alone
 };
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
@@ -7,6 +9,7 @@
 #include "app/plan/plan_options.hpp"
 #include "app/program_parts.hpp"
 #include "model/printable.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -14,11 +17,18 @@ namespace {
 std::string batch_examples() {
   std::string text =
       "  joulepath batch scenarios/missions --out out/batch -j 2\n"
-      "  joulepath batch missions.jsonl --out out/batch --resume\n";
+      "  joulepath batch missions.jsonl --out out/batch --resume\n"
+      "  joulepath batch night/*.yaml --out out/night\n";
   for (const auto& part : made(extension_parts().job_parts)) text += example_line("batch", part->example());
   return text +
          "\nEvery mission has a line in results.jsonl; its .status has the outcome. Exit code 1: the "
          "input of some cannot be read; .message says why.\n";
+}
+
+/// "missions.jsonl", or "monday.yaml and 3 other files".
+std::string title_of(const std::vector<std::string>& sources) {
+  const std::string first = printable(std::filesystem::path(sources.front()).filename().string());
+  return sources.size() == 1 ? first : first + " and " + counted(sources.size() - 1, "other file");
 }
 
 class BatchCommand : public Command {
@@ -26,9 +36,8 @@ class BatchCommand : public Command {
   BatchCommand() : Command({.name = "batch", .says = "plan many missions", .examples = batch_examples()}) {}
 
   void declare(CommandLine& line) override {
-    line.option(
-            "missions", source_,
-            "directory of missions (*.yaml), one mission, or a file of JSON lines with the mission's keys")
+    line.option("missions", sources_,
+                "directories of missions (*.yaml), missions, or files of JSON lines with the mission's keys")
         .required()
         .existing_path();
     add_job_options(line, options_, "results.jsonl, timings.jsonl, report.html");
@@ -39,15 +48,17 @@ class BatchCommand : public Command {
   }
 
   int run() override {
-    const JobRun run = job_run(options_, text().name, source_, "missions");
-    std::vector<MissionItem> items = mission_items(source_);
+    const JobRun run = job_run(options_, text().name, sources_, "missions");
+    std::vector<MissionItem> items;
+    for (const std::string& source : sources_)
+      std::ranges::move(mission_items(source), std::back_inserter(items));
     OutputDirectory out = job_output(options_, run, kBatchFiles);
     plan_.solver = SolverChoice::fast;
     MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache,
                      confidence_);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
-    const std::string title = printable(std::filesystem::path(source_).filename().string());
+    const std::string title = title_of(sources_);
     int code = kDone;
     if (run.part) {
       run.part->write(out, jobs, *results, run, {.title = title});
@@ -60,7 +71,7 @@ class BatchCommand : public Command {
   }
 
  private:
-  std::string source_{};
+  std::vector<std::string> sources_{};
   JobOptions options_{};
   std::optional<double> confidence_{};
   PlanOptions plan_{.baselines = false};

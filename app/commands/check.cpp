@@ -37,6 +37,14 @@ nlohmann::ordered_json error_json(const ConfigError& error) {
           {"hint", d.hint},      {"message", error.what()}};
 }
 
+void tell_error(const ConfigError& error) {
+  std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
+}
+
+bool is_sound(const FileSummary& summary) {
+  return summary.data_checks.empty() && summary.errors.empty() && summary.question.empty();
+}
+
 /// What a coarse plan of a mission runs into: a start or a stop without room, a place that no way leads to, a
 /// deadline that is too early. Its paths are not refined, so a plan may arrive a little earlier.
 std::string coarse_verdict(const std::string& file, const ReadOptions& reading) {
@@ -89,17 +97,16 @@ class Check : public Command {
             summary.notes.push_back(std::move(verdict));
         results.push_back(summary_json(file, summary));
         if (!options_.json) tell(file, summary);
-        if (!summary.data_checks.empty() && code == kDone) code = kInfeasibleOrFailed;
+        if (!is_sound(summary) && code == kDone) code = kInfeasibleOrFailed;
         if (!repair_.empty()) write_repaired(file, summary);
       } catch (const ConfigError& error) {
         code = kBadInput;
         results.push_back({{"file", file}, {"ok", false}, {"error", error_json(error)}});
-        if (!options_.json)
-          std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
+        if (!options_.json) tell_error(error);
       }
       finish_steps();
     }
-    if (!options_.quiet && !options_.json) std::cout << printable_text(proposed());
+    if (!options_.quiet && !options_.json) print_whole_lines(std::cout, printable_text(proposed()));
     if (options_.json)
       std::cout << results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return code;
@@ -108,7 +115,7 @@ class Check : public Command {
  private:
   nlohmann::ordered_json summary_json(const std::string& file, const FileSummary& summary) const {
     nlohmann::ordered_json result{{"file", file},
-                                  {"ok", summary.data_checks.empty()},
+                                  {"ok", is_sound(summary)},
                                   {"kind", summary.kind},
                                   {"summary", summary.text},
                                   {"notes", summary.notes}};
@@ -116,6 +123,8 @@ class Check : public Command {
       result["data_checks"] = data_checks_json(summary.data_checks);
       if (!brief_) result["isolability"] = isolability_json(summary.isolability);
     }
+    if (!summary.question.empty()) result["question"] = summary.question;
+    for (const ConfigError& error : summary.errors) result["errors"].push_back(error_json(error));
     if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
     return result;
   }
@@ -160,12 +169,18 @@ class Check : public Command {
 
   /// Where a file is proposed, the status goes to standard error.
   void tell(const std::string& file, const FileSummary& summary) {
-    const bool sound = summary.data_checks.empty();
+    const bool sound = is_sound(summary);
     std::ostream& out = summary.proposes ? std::cerr : std::cout;
-    out << printable(file) << ": " << paint(out, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect")
+    out << printable(file) << ": "
+        << paint(out, sound ? Paint::good : Paint::error,
+                 sound                    ? "ok"
+                 : summary.errors.empty() ? "suspect"
+                                          : "broken")
         << " (" << summary.kind << (summary.text.empty() ? "" : ": " + printable(summary.text)) << ")\n";
+    if (!summary.question.empty()) std::cout << "  " << printable(summary.question) << '\n';
     for (const DataCheck& check : summary.data_checks)
       std::cout << "  " << printable(data_check_text(check)) << '\n';
+    for (const ConfigError& error : summary.errors) tell_error(error);
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
     if (!summary.proposal.empty()) propose(file, summary);

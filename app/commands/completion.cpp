@@ -2,6 +2,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/terminal.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,9 +22,10 @@ class Completion : public Command {
   }
 
   int run() override {
-    std::cout << (shell_ == "fish"  ? fish()
-                  : shell_ == "zsh" ? "#compdef joulepath\nautoload -U bashcompinit\nbashcompinit\n" + bash()
-                                    : bash());
+    print_whole_lines(std::cout, shell_ == "fish" ? fish()
+                                 : shell_ == "zsh"
+                                     ? "#compdef joulepath\nautoload -U bashcompinit\nbashcompinit\n" + bash()
+                                     : bash());
     return kDone;
   }
 

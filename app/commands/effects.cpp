@@ -53,7 +53,7 @@ class EffectsCommand : public Command {
   int run() override {
     if (json_ && markdown_) throw UsageError("--json and --markdown exclude each other");
     if (markdown_)
-      std::cout << effects_markdown();
+      print_whole_lines(std::cout, effects_markdown());
     else if (json_)
       print_json();
     else

@@ -2,6 +2,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/terminal.hpp"
 #include "scenarios/file_kinds.hpp"
 
 namespace joulepath {
@@ -33,7 +34,7 @@ class SchemaCommand : public Command {
     for (const auto& kind : file_kinds()) {
       names.push_back(kind.name);
       if (kind.name != kind_) continue;
-      std::cout << json_schema(kind);
+      print_whole_lines(std::cout, json_schema(kind));
       return kDone;
     }
     const std::string near = nearest_word(kind_, names);

@@ -6,6 +6,7 @@
 
 #include "app/command_line.hpp"
 #include "app/program_parts.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 
@@ -21,10 +22,13 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   add_common_flags(line, options.common, "qjfu");
 }
 
-JobRun job_run(const JobOptions& options, const std::string& command, const std::string& source,
+JobRun job_run(const JobOptions& options, const std::string& command, const std::vector<std::string>& sources,
                const std::string& noun) {
+  std::string names;
+  for (const std::string& source : sources)
+    append_item(names, std::filesystem::weakly_canonical(source).string(), " ");
   JobRun run{.command = command,
-             .source = std::filesystem::weakly_canonical(source).string(),
+             .source = names,
              .directory = options.out,
              .threads = options.jobs,
              .resume = options.resume,

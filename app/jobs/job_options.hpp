@@ -23,8 +23,8 @@ struct JobOptions {
 };
 
 void add_job_options(CommandLine& line, JobOptions& options, const std::string& files);
-/// `source`: the file or folder of the jobs. `noun`: a job, for the progress.
-[[nodiscard]] JobRun job_run(const JobOptions& options, const std::string& command, const std::string& source,
-                             const std::string& noun);
+/// `sources`: the files or folders of the jobs. `noun`: a job, for the progress.
+[[nodiscard]] JobRun job_run(const JobOptions& options, const std::string& command,
+                             const std::vector<std::string>& sources, const std::string& noun);
 
 }  // namespace joulepath

@@ -58,7 +58,7 @@ class JobList {
 /// Options for running a list of jobs.
 struct JobRun {
   std::string command{};    ///< batch or sweep
-  std::string source{};     ///< the file or folder of the jobs
+  std::string source{};     ///< the files or folders of the jobs
   std::string directory{};  ///< holds the journal
   unsigned threads{1};
   bool resume{};

@@ -33,14 +33,17 @@ void write_analysis(OutputDirectory& out, const std::string& result_file, const 
 }
 
 nlohmann::json baseline_json(const BaselineTotal& total) {
+  const auto driven = [&](double value) {
+    return total.feasible ? nlohmann::json(value) : nlohmann::json(nullptr);
+  };
   nlohmann::json json{{"name", total.name},
                       {"feasible", total.feasible},
                       {"reason", total.reason},
-                      {"energy_J", total.energy_J},
-                      {"motion_energy_J", total.motion_energy_J},
-                      {"duration_s", total.duration_s},
-                      {"optimum_J", total.optimum_J},
-                      {"optimum_motion_J", total.optimum_motion_J}};
+                      {"energy_J", driven(total.energy_J)},
+                      {"motion_energy_J", driven(total.motion_energy_J)},
+                      {"duration_s", driven(total.duration_s)},
+                      {"optimum_J", driven(total.optimum_J)},
+                      {"optimum_motion_J", driven(total.optimum_motion_J)}};
   if (total.feasible && total.late()) json["later_s"] = total.later_s;
   return json;
 }

@@ -39,7 +39,8 @@ void write_analysis(OutputDirectory& out, const std::string& result_file, const 
 [[nodiscard]] bool prints_analysis_table(const AnalysisOptions& options, const nlohmann::json& result);
 
 /// {name, feasible, reason, energy_J, motion_energy_J, duration_s, optimum_J, optimum_motion_J, later_s}; the
-/// optimum is the least energy in the same time, later_s is there only if it is late.
+/// optimum is the least energy in the same time, later_s is there only if it is late. The figures of a
+/// profile that cannot be driven are null.
 [[nodiscard]] nlohmann::json baseline_json(const BaselineTotal& total);
 
 }  // namespace joulepath

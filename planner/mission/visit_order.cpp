@@ -6,6 +6,7 @@
 
 #include "planner/mission/visit_search.hpp"
 #include "planner/mission/visit_verdict.hpp"
+#include "planner/ways/leg_path.hpp"
 
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
@@ -139,6 +140,11 @@ Plan plan_visits(const ChoiceContext& context, const PlanLegs& plan_legs) {
   std::vector<VisitLabel> orders = orders_to_plan(search);
   VisitOrder visit{.exact = asked.visit.size() <= kExactStops};
   if (orders.empty()) {
+    if (context.space)
+      refuse_blocked_start(
+          asked, *context.space,
+          route_request({.to = asked.visit.front().station}, {asked.start.pose, !asked.start.heading_given},
+                        asked, context.options));
     visit.infeasibility = no_order(asked, context.world.robot, search);
     Plan none;
     none.visit = std::move(visit);

@@ -101,15 +101,25 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
   return reason;
 }
 
+[[noreturn]] void refuse_start(const MissionRequest& mission, const RouteVerdict& verdict) {
+  const std::string free = "a free place, the whole footprint and clearance_m around it",
+                    hint = "short by " + metres(verdict.short_by_m);
+  if (mission.start.station.empty() && !mission.marks.keys.contains("start"))
+    throw ConfigError({.mark = mission.marks.at(mission.visit.empty() ? "legs" : "visit"),
+                       .key = "start",
+                       .found = "nothing, and at the map's origin of coordinates " + verdict.message,
+                       .accepted = "station, or x_m and y_m, of " + free,
+                       .hint = hint});
+  refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
+         "a start where the robot does not fit: " + verdict.message, free, hint);
+}
+
 LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                        const MissionRequest& mission, const RouteSpace& space, const PlanOptions& options) {
   const Station& goal = mission.stations.at(leg.to);
   const RouteResult route = plan_route(space, route_request(leg, start, mission, options));
   if (route.verdict.status == RouteStatus::start_blocked && leg_index == 0)
-    refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
-           "a start where the robot does not fit: " + route.verdict.message,
-           "a free place, the whole footprint and clearance_m around it",
-           "short by " + metres(route.verdict.short_by_m));
+    refuse_start(mission, route.verdict);
   if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal, leg.marks)};
   return {.path = route.path, .source = route.searched_by};
 }
@@ -125,6 +135,11 @@ RouteRequest route_request(const LegRequest& leg, const LegStart& start, const M
           .goal_heading_rad = goal.heading_rad,
           .start_heading_free = start.heading_free,
           .seed = options.seed};
+}
+
+void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space, const RouteRequest& way) {
+  const auto verdict = blocked_ends(space, way);
+  if (verdict && verdict->status == RouteStatus::start_blocked) refuse_start(mission, *verdict);
 }
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,

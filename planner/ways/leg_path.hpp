@@ -36,4 +36,7 @@ struct LegStart {
 [[nodiscard]] RouteRequest route_request(const LegRequest& leg, const LegStart& start,
                                          const MissionRequest& mission, const PlanOptions& options);
 
+/// Throws ConfigError where the robot does not fit at the mission's start, from which `way` begins.
+void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space, const RouteRequest& way);
+
 }  // namespace joulepath

@@ -39,6 +39,7 @@ def test_check_compare_and_front_print_the_program_s_bytes(program, mission):
             assert shown.lines[0].get_xydata().tolist() == points and len(points) == 3
         else:
             driven = [p.energy_J for p in answer.json.profiles if p.feasible]
+            assert all(p.energy_J is None and p.optimum_J is None for p in answer.json.profiles if not p.feasible)
             assert [bar.get_width() for bar in shown.patches] == driven and len(driven) > 5
     with pytest.raises(jp.ConfigError, match="one of front or compare"):
         jp.check("mission.yaml", brief=True).plot()

@@ -162,16 +162,18 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
-/// One factor on a quantity of the drive in all runs may as well be the file of a robot with another motor
-/// and mass.
+/// One factor on a quantity of the drive in all runs, or several factors, may as well be the file of a robot
+/// with another motor and mass.
 std::string another_robots_words(const std::vector<DataCheck>& checks) {
-  const bool alike = std::ranges::any_of(checks, [](const DataCheck& check) {
-    return check.kind == "scaled" && check.run.empty() &&
+  const auto is_scaled = [](const DataCheck& check) { return check.kind == "scaled"; };
+  const bool alike = std::ranges::any_of(checks, [&](const DataCheck& check) {
+    return is_scaled(check) && check.run.empty() &&
            (check.channel.starts_with("motor_") || check.channel.starts_with("wheel_speed_"));
   });
-  return alike ? " Another robot's file gives the same picture: compare its motor and mass with the robot's "
-                 "first."
-               : "";
+  return alike || std::ranges::count_if(checks, is_scaled) > 1
+             ? " Another robot's file gives the same picture: compare its motor and mass with the robot's "
+               "first."
+             : "";
 }
 
 /// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to
@@ -244,6 +246,12 @@ std::string simulator_words(const Diagnosis& d) {
     words += " What predictions lack is compared with this program's model: " +
              text_of_list(simulator.lacking_channels) + ".";
   return words;
+}
+
+std::string right_robot_question(const std::string& robot_file, const std::vector<ForeignConstant>& constants,
+                                 const std::vector<DataCheck>& checks) {
+  const std::string why = constants.empty() ? another_robots_words(checks) : " " + foreign_words(constants);
+  return why.empty() ? "" : "is " + robot_file + " the right robot file?" + why;
 }
 
 std::string diagnosis_sentence(const Diagnosis& d) {

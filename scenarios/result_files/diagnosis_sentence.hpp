@@ -20,4 +20,10 @@ namespace joulepath {
 /// What the verdict means, in one or two sentences.
 [[nodiscard]] std::string diagnosis_meaning(const Diagnosis& diagnosis);
 
+/// "is robot.yaml the right robot file? ...": of runs whose constants, or whose faults, look like those of
+/// another robot; or empty.
+[[nodiscard]] std::string right_robot_question(const std::string& robot_file,
+                                               const std::vector<ForeignConstant>& constants,
+                                               const std::vector<DataCheck>& checks);
+
 }  // namespace joulepath

@@ -54,6 +54,51 @@ TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   }
 }
 
+/// A shell's `*.yaml` is a list of files.
+TEST(Batch, SeveralFilesAreOneList) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  std::string files;
+  for (const char* name : {"a", "b"})
+    files += " " + scratch.write(name + std::string(".yaml"), mission(name, 3));
+  files += " " + scratch.write("m.jsonl", mission("c", 4) + "\n" + mission("d", 5) + "\n");
+  const std::string options = " -q --nodes 20 --out " + scratch.at("out");
+  const auto result = run_program(scratch, "batch" + files + options);
+  EXPECT_EQ(result.code, 0) << result.err;
+  std::string names;
+  for (const Json& line : lines_of(scratch.at("out/results.jsonl"))) {
+    EXPECT_TRUE(line.contains("energy_J")) << line;
+    names += line.at("name").get<std::string>();
+  }
+  EXPECT_EQ(names, "abcd");
+  EXPECT_NE(text_of(scratch.at("out/report.html")).find("a.yaml and 2 other files"), std::string::npos);
+  const auto absent = run_program(scratch, "batch" + files + " none.yaml --force" + options);
+  EXPECT_EQ(absent.code, 2);
+  EXPECT_NE(absent.err.find("none.yaml"), std::string::npos) << absent.err;
+  const auto mistyped = run_program(scratch, "batch" + files + " --ouut " + scratch.at("other"));
+  EXPECT_NE(mistyped.err.find("unknown argument --ouut (did you mean --out?)"), std::string::npos)
+      << mistyped.err;
+}
+
+TEST(Batch, CheckTellsEveryBrokenLineOfAList) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string lines =
+      scratch.write("m.jsonl", mission("a", 3) + "\nbroken{{{\n" + mission("b", 3, "none.yaml") + "\n" +
+                                   mission("c", 4) + "\n{\"robot\": \"robot.yaml\", \"leg\": []}\n");
+  const auto told = run_program(scratch, "check " + lines);
+  EXPECT_EQ(told.code, 1) << told.err;
+  EXPECT_NE(told.out.find("m.jsonl: broken (missions: 5 missions, 3 cannot be read)"), std::string::npos)
+      << told.out;
+  for (const char* line : {"m.jsonl:2:", "m.jsonl:3:", "m.jsonl:5:"})
+    EXPECT_NE(told.err.find(line), std::string::npos) << line << told.err;
+  EXPECT_EQ(told.err.find("m.jsonl:1:"), std::string::npos) << told.err;
+  const auto json = Json::parse(run_program(scratch, "check --json " + lines).out).at(0);
+  EXPECT_FALSE(json.at("ok").get<bool>());
+  ASSERT_EQ(json.at("errors").size(), 3u) << json;
+  EXPECT_EQ(json["errors"][2].at("line"), 5) << json;
+}
+
 TEST(Batch, ARowSaysWhatItsPromisesAreKeptWith) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml"));

@@ -194,6 +194,25 @@ TEST(CommandLine, AStopWhereTheRobotDoesNotFitIsNamedByFileAndLine) {
   EXPECT_NE(result.err.find("m.yaml:6:10: legs[0].to"), std::string::npos) << result.err;
 }
 
+/// Without `start:` the robot begins at the map's origin of coordinates, which is mostly a corner of the map.
+TEST(CommandLine, AMissionWithoutAStartIsNamedByFileAndLine) {
+  const ScratchDirectory scratch;
+  const std::string good = kBroken + "good/";
+  const std::string head = "robot: " + good + "robot.yaml\nmap: " + good +
+                           "map.yaml\nstations: {a: {x_m: 0.5, y_m: 0.5}, b: {x_m: 0.6, y_m: 0.5}}\n";
+  for (const std::string stops : {"legs:\n  - {to: a}\n", "visit:\n  - {go: a}\n  - {go: b}\n"}) {
+    const std::string mission = scratch.write("m.yaml", head + stops);
+    for (const std::string& command :
+         {"check " + mission, "plan " + mission + " --out " + scratch.at("out")}) {
+      const auto result = run_program(scratch, command);
+      EXPECT_EQ(result.code, 2) << command << stops;
+      for (const char* says :
+           {"m.yaml:5:3: start: found nothing, ", "accepted: station, or x_m and y_m, of a free place"})
+        EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    }
+  }
+}
+
 TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
   const ScratchDirectory scratch;
   for (const auto& entry : std::filesystem::directory_iterator(kBroken + "dataset")) {
@@ -217,6 +236,22 @@ TEST(CommandLine, AnUnknownArgumentIsReportedBeforeAMissingOne) {
   EXPECT_NE(run_program(scratch, "diagnose run_01.csv '" + kBroken + "good/robot.yaml'")
                 .err.find("robot.yaml, one file too many"),
             std::string::npos);
+}
+
+TEST(CommandLine, AShortenedWordIsToldInFull) {
+  const ScratchDirectory scratch;
+  const auto told = [&](const std::string& arguments) {
+    const auto result = run_program(scratch, arguments + " --out " + scratch.at("out"));
+    EXPECT_EQ(result.code, 2) << arguments;
+    return result.err;
+  };
+  const std::string price = told("plan m.yaml --price 0.3"), format = told("export m.yaml --to traj"),
+                    slip = told("export m.yaml --to edgs");
+  EXPECT_NE(price.find("unknown argument --price (did you mean --price-per-kWh?)"), std::string::npos)
+      << price;
+  EXPECT_NE(format.find("(did you mean trajectory?)"), std::string::npos) << format;
+  EXPECT_NE(slip.find("(did you mean edges?)"), std::string::npos) << slip;
+  EXPECT_NE(run_program(scratch, "comp").err.find("did you mean compare or completion?"), std::string::npos);
 }
 
 TEST(CommandLine, ExportWritesAllItsFilesOrNone) {
@@ -264,6 +299,29 @@ TEST(CommandLine, APathIsComparedAtItsTimeWithItsPayload) {
   EXPECT_GE(counted, 8u);
   EXPECT_LT(compared(" --time 12")[0]["energy_J"].get<double>(), plan["energy_J"].get<double>());
   EXPECT_LE(compared(" --payload 5")[0]["energy_J"].get<double>(), plan["energy_J"].get<double>());
+}
+
+/// A sum over the stretches that it can drive, or the dwell alone, is no energy of this mission.
+TEST(CommandLine, AProfileThatCannotBeDrivenHasNoFigures) {
+  const ScratchDirectory scratch;
+  const std::string mission =
+      scratch.write("m.yaml", "robot: " JOULEPATH_SOURCE_DIR
+                              "/scenarios/robots/amr_150kg.yaml\nlegs:\n"
+                              "  - {path: {bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]}, dwell_s: 3}\n");
+  std::size_t not_driven = 0;
+  for (const auto& [command, list] :
+       {std::pair{"compare ", "profiles"}, {"front --points 3 ", "baselines"}}) {
+    const auto result = run_program(scratch, command + mission + " --nodes 40 --json");
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const auto& profile : nlohmann::json::parse(result.out)[list]) {
+      const bool feasible = profile["feasible"];
+      not_driven += feasible ? 0 : 1;
+      for (const char* key : {"energy_J", "motion_energy_J", "duration_s", "optimum_J", "optimum_motion_J"})
+        EXPECT_EQ(profile[key].is_null(), !feasible) << key << profile;
+      EXPECT_EQ(profile["reason"].get<std::string>().empty(), feasible) << profile;
+    }
+  }
+  EXPECT_GT(not_driven, 0u) << "a limit of jerk, which profiles with jumps of the acceleration do not keep";
 }
 
 TEST(CommandLine, AMissionOfTheSamePathHasTheSamePlan) {
@@ -413,6 +471,35 @@ TEST(CommandLine, ABriefCheckHoldsTheDataChecksAlone) {
   EXPECT_TRUE(whole.contains("isolability"));
 }
 
+/// Eight times the mass: no fault of a channel. Another motor: faults of channels, after the question.
+TEST(CommandLine, CheckAsksForTheRobotOfTheRunsFirst) {
+  const ScratchDirectory scratch;
+  ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
+  const std::string day = text_of(scratch.at("start/dataset.yaml")),
+                    robot = text_of(scratch.at("start/robot.yaml"));
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    const auto at = text.find(what);
+    return at == std::string::npos ? text : text.replace(at, what.size(), by);
+  };
+  scratch.write("start/heavy.yaml", replaced(robot, "chassis_mass_kg: 21.2", "chassis_mass_kg: 169.6"));
+  scratch.write("start/amr.yaml", text_of(JOULEPATH_SOURCE_DIR "/scenarios/robots/amr_150kg.yaml"));
+  for (const std::string name : {"heavy.yaml", "amr.yaml"}) {
+    const std::string dataset =
+        scratch.write("start/other.yaml", replaced(day, "robot: robot.yaml", "robot: " + name));
+    const auto told = run_program(scratch, "check --brief " + dataset);
+    EXPECT_EQ(told.code, 1) << told.out;
+    const auto asked = told.out.find(name + " the right robot file? ");
+    EXPECT_NE(asked, std::string::npos) << told.out;
+    EXPECT_LT(asked, told.out.find("scaled. ")) << told.out;
+    const auto json = nlohmann::json::parse(run_program(scratch, "check --json --brief " + dataset).out)[0];
+    EXPECT_FALSE(json.at("ok").get<bool>());
+    EXPECT_TRUE(json.contains("question"));
+  }
+  const auto own = run_program(scratch, "check --brief " + scratch.at("start/dataset.yaml"));
+  EXPECT_EQ(own.code, 0) << own.out;
+  EXPECT_EQ(own.out.find("right robot file"), std::string::npos) << own.out;
+}
+
 TEST(CommandLine, CheckContinuesAfterABadFileAndReportsAllAsJson) {
   const ScratchDirectory scratch;
   const auto result = run_program(
@@ -467,6 +554,48 @@ TEST(CommandLine, NoLineIsWiderThanOneHundredAndTenColumns) {
   check(run_program(scratch, "plan" + mission + scratch.at("p")).out, "plan");
   check(run_program(scratch, "compare" + mission + scratch.at("c")).out, "compare");
   check(run_program(scratch, "front --points 4" + mission + scratch.at("f")).out, "front");
+}
+
+/// The text of a terminal with its folded lines put together again, as a pipe gets them.
+std::string unfolded(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+  return text;
+}
+
+/// Errors, notes and summaries on a terminal; a pipe gets whole lines, as other programs read them by line.
+TEST(CommandLine, NoLineOnATerminalIsWiderThanOneHundredAndTenColumns) {
+  const ScratchDirectory scratch;
+  if (shown_on_terminal("--version").empty()) GTEST_SKIP() << "no terminal here";
+  write_drive(scratch, 1);
+  ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
+  const std::string broken = kBroken + "mission/unknown_leg_key.yaml", drive = scratch.at("m.yaml"),
+                    start = scratch.at("start/"), out = " --force --out " + scratch.at("out");
+  std::size_t long_lines = 0;
+  for (const std::string& command :
+       {"check " + broken + " " + drive,
+        "check --brief " + start + "dataset.yaml " + kBroken + "robot/other_kind.yaml",
+        "plan " + broken + out, "plan --no-such-option-of-this-command " + drive + out,
+        "diagnose " + start + "dataset.yaml" + out, "diagnose " + broken + out,
+        "calibrate " + start + "dataset.yaml --force --out " + scratch.at("calibrated.yaml"),
+        "batch " + kBroken + "mission -q --nodes 20" + out, "export " + drive + " --to no_such_format" + out,
+        "front " + drive + " --nodes 20" + out}) {
+    const ProgramResult piped = run_program(scratch, command);
+    const std::string shown = shown_on_terminal(command);
+    EXPECT_FALSE(shown.empty()) << command;
+    std::istringstream lines(shown);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_one_name = line.find_last_of(' ') + 1 == line.find_first_not_of(' ');
+      EXPECT_TRUE(line.size() <= 110 || is_one_name) << command << ": " << line;
+    }
+    std::istringstream whole(piped.err);
+    for (std::string line; std::getline(whole, line);) {
+      long_lines += line.size() > 110 ? 1 : 0;
+      EXPECT_NE(unfolded(shown).find(unfolded(line)), std::string::npos) << command << ": " << line << shown;
+    }
+  }
+  EXPECT_GT(long_lines, 3u) << "in the pipe";
+  const std::string command = "check --json " + broken;
+  EXPECT_EQ(shown_on_terminal(command), run_program(scratch, command).out);
 }
 
 /// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.

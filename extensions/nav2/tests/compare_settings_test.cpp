@@ -33,5 +33,12 @@ TEST(CompareSettings, WritesItsPageBesideItsDocument) {
   EXPECT_NE(result.out.find("results in "), std::string::npos) << result.out;
 }
 
+TEST(ExportFormats, NavIsToldInFull) {
+  const ScratchDirectory scratch;
+  const ProgramResult result = run_program(scratch, "export m.yaml --to nav --out " + scratch.at("out"));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("(did you mean nav2_path or nav2_settings?)"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace joulepath

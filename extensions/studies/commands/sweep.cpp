@@ -47,7 +47,7 @@ class SweepCommand : public Command {
 
   int run() override {
     const Study study = read_study(source_, {.untrusted = options_.common.untrusted});
-    const JobRun run = job_run(options_, text().name, source_, "plans");
+    const JobRun run = job_run(options_, text().name, {source_}, "plans");
     if (evaluations_ > 0 && run.part)
       throw UsageError("--optimize: found together with --shard, accepted: a sweep without shards");
     if (evaluations_ > 0 && std::ranges::none_of(study.designs.parameters(), &SweepParameter::has_ends))

@@ -131,6 +131,20 @@ TEST(DiagnosisSentence, NamesTheOtherReadingOfAScaledDrive) {
   EXPECT_FALSE(has_other_reading(sentence_of("gyro_yaw_rate_rad_s", "scaled", "")));
 }
 
+TEST(DiagnosisSentence, AsksForTheRightRobotFile) {
+  const DataCheck left{.run = "run_1", .channel = "motor_current_left_A", .kind = "scaled"},
+      right{.run = "run_2", .channel = "motor_current_right_A", .kind = "scaled"};
+  const auto begins = [](const std::string& question) {
+    return question.starts_with("is r.yaml the right robot file? ");
+  };
+  EXPECT_EQ(right_robot_question("r.yaml", {}, {}), "");
+  EXPECT_EQ(right_robot_question("r.yaml", {}, {left}), "");
+  EXPECT_TRUE(begins(right_robot_question("r.yaml", {}, {left, right})));
+  EXPECT_EQ(right_robot_question("r.yaml", {{"winding resistance", "ohm", 2.7, 0.5}}, {}),
+            "is r.yaml the right robot file? The robot file does not describe this robot: winding resistance "
+            "2.7 ohm in the file, 0.5 ohm in the runs.");
+}
+
 std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
