@@ -15,12 +15,24 @@ install(TARGETS joulepath RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${modules} joulepath_all EXPORT joulepathTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath)
 install(EXPORT joulepathTargets NAMESPACE joulepath:: DESTINATION ${config_dir})
-install(DIRECTORY model planner diagnosis scenarios DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath
-        FILES_MATCHING PATTERN "*.hpp")
+# Files of a folder of the source, by regular expressions of their paths. install(DIRECTORY) would leave an empty folder
+# where it leaves out every file.
+function(joulepath_install_files folder destination included excluded)
+  file(GLOB_RECURSE files LIST_DIRECTORIES false RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*)
+  list(FILTER files INCLUDE REGEX "${included}")
+  list(FILTER files EXCLUDE REGEX "${excluded}")
+  foreach(file IN LISTS files)
+    get_filename_component(place ${file} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${destination}/${place})
+  endforeach()
+endfunction()
+
+foreach(room model planner diagnosis scenarios)
+  joulepath_install_files(${room} ${CMAKE_INSTALL_INCLUDEDIR}/joulepath "[.]hpp$" "^$")
+endforeach()
 get_property(readers GLOBAL PROPERTY JOULEPATH_READERS)
 foreach(name IN LISTS readers) # of the library, not of the program
-  install(DIRECTORY extensions/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath/extensions
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "tests" EXCLUDE PATTERN "commands" EXCLUDE)
+  joulepath_install_files(extensions/${name} ${CMAKE_INSTALL_INCLUDEDIR}/joulepath "[.]hpp$" "/(tests|commands)/")
 endforeach()
 foreach(name IN LISTS JOULEPATH_DEPENDENCY_FILES)
   install(FILES extensions/${name}/dependencies.cmake DESTINATION ${config_dir} RENAME joulepath_${name}.cmake)
@@ -46,8 +58,7 @@ file(RELATIVE_PATH PC_TO_PREFIX "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/pr
 configure_file(cmake/joulepath.pc.in joulepath.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/joulepath.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/joulepath
-        PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE PATTERN "CMakeLists.txt" EXCLUDE)
+joulepath_install_files(scenarios ${CMAKE_INSTALL_DATADIR}/joulepath "." "([.][ch]pp|/CMakeLists[.]txt)$")
 install(FILES README.md CHANGELOG.md LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright) # where Debian looks
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -25,6 +25,7 @@ autodoc_mock_imports = ["joulepath._core", "ortools"]  # the compiled part is no
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 
+pygments_style, pygments_dark_style = "default", "github-dark"  # contrasts of 4.5 on the theme's grounds
 html_theme = "furo"
 html_favicon = "_static/icon.svg"
 html_title = f"joulepath {release}"

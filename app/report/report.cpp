@@ -1,6 +1,7 @@
 #include "app/report/report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -144,6 +145,8 @@ std::string page_html(const std::string& kind, const json& data, std::span<const
   const std::string title = data.value("title", ""), robot = data.value("subtitle", "");
   json versioned = data;
   versioned["version"] = JOULEPATH_VERSION;
+  std::string name = title.empty() ? kind : kind + " · " + title;  // tabs of one mission differ in the kind
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   const std::string about =
       (robot.empty() ? "" : robot + " · ") + day() + " · joulepath " + JOULEPATH_VERSION;
   versioned["about"] = about;
@@ -151,7 +154,7 @@ std::string page_html(const std::string& kind, const json& data, std::span<const
       embedded::page,
       {{"@KIND@", kind},
        {"@STARTS@", starts},
-       {"@TITLE@", escaped((title.empty() ? kind : title) + " · " + about)},
+       {"@TITLE@", escaped(name + " · " + about)},
        {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
        {"@TABLES@", plain_tables(data.at(kind))},
        {"@PAGE_STYLE@", shared_style()},

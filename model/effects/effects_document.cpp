@@ -14,9 +14,16 @@ std::string cell(std::string_view text) {  // a pipe ends a table's cell
 }
 
 const char* const kHead = R"(# Effects
-This catalog lists deviations of a robot from its file. Planner, simulator and diagnosis use the same catalog. Add an effect
+For those who add an effect to a robot file or a simulation, or who look up a name of a diagnosis: the law, the parameters
+and the validity of each effect, and its counterparts in Gazebo and MuJoCo.
+
+An effect is a deviation of a robot from its file. Planner, simulator and diagnosis use the same catalog. Add an effect
 to a robot file's `effects:`, or to a simulation alone (`joulepath simulate --effect NAME:PARAMETER=VALUE,...`).
 `joulepath effects --markdown` writes this page from the catalog in `model/effects/`; a test compares both.
+
+In a robot file an effect may have a `probability`, which `diagnose` writes; the plan and its energy intervals hold the whole
+effect all the same. `plan --confidence` draws robots that lack the effect with the remaining probability, each effect
+independently of the others.
 
 Resistances oppose the motion of the wheel or of the robot. N = m g / 2 is the load on a wheel, with wheels and payload.
 "Change" and "error" are relative to the robot file. `stage` is the place of an effect in the chain from body to battery:

@@ -28,7 +28,7 @@ TEST(CompareSettings, WritesItsPageBesideItsDocument) {
               1e-9)
       << "percent of the energy of what is compared";
   const std::string page = text_of(scratch.at("out/report.html"));
-  EXPECT_NE(page.find("<title>drive · small · "), std::string::npos);
+  EXPECT_NE(page.find("<title>Compare · drive · small · "), std::string::npos);
   EXPECT_NE(page.find("\"loss\":{"), std::string::npos);
   EXPECT_NE(result.out.find("results in "), std::string::npos) << result.out;
 }

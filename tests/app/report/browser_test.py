@@ -158,7 +158,7 @@ def check_page(browser, file, theme, plots):
     sentences = browser.run("return [...document.querySelectorAll('.sentence')].map((e) => e.textContent)")
     assert len(sentences) == 1 and sentences[0].endswith("."), f"no sentence that says the result: {sentences}"
     title = browser.run("return document.title")
-    assert re.fullmatch(r"\S.* · (made-up data · )?\d{4}-\d\d-\d\d · joulepath \d\S*", title), f"the title {title!r} lacks mission, day or version"
+    assert re.fullmatch(r"[A-Z][a-z]+( .*)? · (made-up data · )?\d{4}-\d\d-\d\d · joulepath \d\S*", title), f"the title {title!r} lacks kind, day or version"
     requests = browser.run("return performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !/^(data|blob):/.test(n))")
     assert not requests, f"the page fetched {requests}"
     ground = browser.run("return getComputedStyle(document.body).backgroundColor")

@@ -22,12 +22,12 @@ TEST(Report, HoldsItsDataUnchanged) {
   EXPECT_EQ(data.at("trajectory").at("time_s").size(), sample::trajectory().at("time_s").size());
 }
 
-TEST(Report, TheTitleNamesMissionRobotDayAndVersion) {
+TEST(Report, TheTitleNamesKindMissionRobotDayAndVersion) {
   ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
   const std::string html =
       plan_report_html(sample::plan(), {}, {.title = "round", .subtitle = "robot · map.yaml"});
   ::unsetenv("SOURCE_DATE_EPOCH");
-  EXPECT_NE(html.find("<title>round · robot · map.yaml · 1970-01-02 · joulepath "), std::string::npos);
+  EXPECT_NE(html.find("<title>Plan · round · robot · map.yaml · 1970-01-02 · joulepath "), std::string::npos);
 }
 
 /// A page holds the ends of the interval, and none where nothing is stated.
