@@ -45,7 +45,7 @@ TEST(CommandLine, ANumberOfAnOptionIsFinite) {
     for (const char* option : {"simulate m.yaml --sample-rate-Hz=", "simulate m.yaml --time-of-day-s=",
                                "export m.yaml --to nav2_path --rate=", "plan m.yaml --accuracy=",
                                "plan m.yaml --time=", "monitor x --robot r --false-alarm-hours="}) {
-      const auto result = run_program(scratch, option + value + " --out " + scratch.at("out"));
+      const auto result = run_program(scratch, option + value);
       EXPECT_EQ(result.code, 2) << option << value;
       EXPECT_NE(result.err.find("found " + value + ", accepted: a finite number"), std::string::npos)
           << option << value << result.err;
@@ -304,16 +304,14 @@ TEST(CommandLine, APathIsComparedAtItsTimeWithItsPayload) {
 /// A sum over the stretches that it can drive, or the dwell alone, is no energy of this mission.
 TEST(CommandLine, AProfileThatCannotBeDrivenHasNoFigures) {
   const ScratchDirectory scratch;
-  const std::string mission =
-      scratch.write("m.yaml", "robot: " JOULEPATH_SOURCE_DIR
-                              "/scenarios/robots/amr_150kg.yaml\nlegs:\n"
-                              "  - {path: {bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]}, dwell_s: 3}\n");
+  const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");
   std::size_t not_driven = 0;
   for (const auto& [command, list] :
        {std::pair{"compare ", "profiles"}, {"front --points 3 ", "baselines"}}) {
-    const auto result = run_program(scratch, command + mission + " --nodes 40 --json");
+    const auto result = run_program(scratch, command + path + " --nodes 40 --json --robot " + kRobot);
     ASSERT_EQ(result.code, 0) << result.err;
-    for (const auto& profile : nlohmann::json::parse(result.out)[list]) {
+    const auto answer = nlohmann::json::parse(result.out);
+    for (const auto& profile : answer[list]) {
       const bool feasible = profile["feasible"];
       not_driven += feasible ? 0 : 1;
       for (const char* key : {"energy_J", "motion_energy_J", "duration_s", "optimum_J", "optimum_motion_J"})
@@ -321,7 +319,7 @@ TEST(CommandLine, AProfileThatCannotBeDrivenHasNoFigures) {
       EXPECT_EQ(profile["reason"].get<std::string>().empty(), feasible) << profile;
     }
   }
-  EXPECT_GT(not_driven, 0u) << "a limit of jerk, which profiles with jumps of the acceleration do not keep";
+  EXPECT_GT(not_driven, 0u);
 }
 
 TEST(CommandLine, AMissionOfTheSamePathHasTheSamePlan) {
@@ -414,8 +412,11 @@ TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
   EXPECT_GT(sure["reserve_margin_fraction"], 0.0);
   EXPECT_GT(sure["points"][0]["duration_s"], front["points"][0]["duration_s"]);
   std::size_t judged = 0;
-  for (const auto& point : sure["points"])
-    if (point.contains("kept_at_least")) ++judged, EXPECT_GE(point["kept_at_least"], 0.9) << point;
+  for (const auto& point : sure["points"]) {
+    if (!point.contains("kept_at_least")) continue;
+    ++judged;
+    EXPECT_GE(point["kept_at_least"], 0.9) << point;
+  }
   EXPECT_EQ(judged, 3u);
 }
 
