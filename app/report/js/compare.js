@@ -57,12 +57,14 @@ const saved_percent = (one) => 100 * (1 - one.optimum_J / one.energy_J);
 /** A controller's settings on the plan's path: in their own time, and waiting until the plan's time. */
 function draw_loss(data, loss) {
   const own = loss.own_time, rows = [["settings, their own time", own], ...(loss.plan_time ? [["settings, then waiting until the plan's time", loss.plan_time]] : [])];
+  const motions = jp.overlaid_profiles(data.profiles || []);
   const list = (title, items) => (items || []).length ? h("details", {}, h("summary", {}, `${title}: ${items.length}`), h("ul", {}, items.map((one) => h("li", {}, one)))) : null;
   jp.page(jp.header(data.title || "Comparison", `${jp.against_text("These settings", own)} The plan: ${jp.cost_text(loss.plan)}.`, loss.broken_limit ? "exceeds a limit" : null, false),
     h("div", {class: "tiles"}, jp.tile("These settings", with_unit(own.energy_J, "J", 5), with_unit(own.duration_s, "s")), jp.tile("Optimal in their time", with_unit(own.optimum_J, "J", 5), `${percent(own.lost_percent, 2)} less`),
       jp.tile("The plan", with_unit(loss.plan.energy_J, "J", 5), with_unit(loss.plan.duration_s, "s"))),
     jp.beside_map(data, jp.section("Energy", jp.table(["same path", {n: "time s"}, {n: "energy J"}, {n: "least J in it"}, {n: "saving"}], [...rows.map(([name, one]) => [name, {n: number(one.duration_s)}, {n: number(one.energy_J, 6)}, {n: number(one.optimum_J, 6)}, {n: percent(one.lost_percent)}]),
       ["plan", {n: number(loss.plan.duration_s)}, {n: number(loss.plan.energy_J, 6)}, {n: ""}, {n: ""}]]), loss.plan_time ? null : h("p", {class: "soft"}, "The settings are later than the plan."), loss.broken_limit ? h("p", {}, `Exceeds a limit: ${loss.broken_limit}`) : null),
+    motions, motions ? h("p", {class: "soft"}, "Each in its own time." + jp.dwell_text([loss.plan], data.profiles)) : null,
     jp.section("The file", h("p", {class: "soft"}, loss.of), list("Parameters read", loss.parameters), list("Not used", loss.unused), list("Not modelled", loss.not_modelled))));
 }
 

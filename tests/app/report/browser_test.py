@@ -354,12 +354,12 @@ def main():
             check_diagnosis(browser, f"{folder}/diagnosis.html")
             check_bands(browser, folder)
             check_texts(browser, folder)
-            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("loss", 0), ("front", 2), ("batch", 0)):
+            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("loss", 3), ("front", 2), ("batch", 0)):
                 check_keyboard(browser, f"{folder}/{kind}.html")
                 for theme in ("dark", "light"):
                     check_page(browser, f"{folder}/{kind}.html", theme, plots)
                     print(f"ok: {kind}, {theme}")
-                if kind in ("diagnosis", "compare", "front"):
+                if kind in ("diagnosis", "compare", "loss", "front"):
                     check_cursor(browser)
             for report in sys.argv[2:]:
                 if os.path.exists(report):
