@@ -46,10 +46,10 @@ function scale_of(designs, p) {
   return {levels, numeric, color_of: (value) => ramp(place(value))};
 }
 function cloud_legend({levels, numeric, color_of}, parameter, has_hollow) {
-  const shades = numeric && levels.length > 6 ? h("span", {class: "scale", style: "display:inline-flex"}, parameter_text(parameter, levels[0]), h("span", {class: "ramp", style: `background:${ramp_css()}`}), parameter_text(parameter, levels.at(-1)))
+  const shades = numeric && levels.length > 6 ? h("span", {class: "scale", style: "display:inline-flex;margin:0 10px 0 0"}, parameter_text(parameter, levels[0]), h("span", {class: "ramp", style: `background:${ramp_css()}`}), parameter_text(parameter, levels.at(-1)))
     : levels.map((value) => key(parameter_text(parameter, value), color_of(value), "box"));
-  const ring = h("span", {class: "key"}, h("i", {style: "width:13px;height:13px;border:2px solid var(--second);border-radius:50%"}), "ring: Pareto front");
-  return h("p", {class: "small"}, ring, shades, has_hollow ? h("span", {class: "soft"}, "hollow: outside the constraints") : null);
+  const circle = (px, line, text) => h("span", {class: "key"}, h("i", {style: `width:${px}px;height:${px}px;border:${line};border-radius:50%`}), text);
+  return h("p", {class: "small"}, circle(14, "2px solid var(--second)", "ring: Pareto front"), shades, has_hollow ? circle(11, "3px solid var(--soft)", "hollow: outside the constraints") : null);
 }
 
 /** Energy against duration: every design a dot, the Pareto front ringed. {element, point(row)}: point shows which dot is named. */
@@ -75,7 +75,7 @@ function cloud_picture(sweep, designs, front, p, named) {
     picture.append(dot);
   });
   front_labels(picture, front, places, place, [left, width], (one) => [value_text(one.parameters[parameter.name]), unit_of(parameter)].filter(Boolean).join("\u202f"));
-  const ring = svg("circle", {r: 12, fill: "none", stroke: "var(--focus)", "stroke-width": 3, visibility: "hidden", class: "named"});
+  const ring = svg("circle", {r: 12, fill: "none", stroke: "var(--ink)", "stroke-width": 3, visibility: "hidden", class: "named"});
   picture.append(ring);
   const point = (row) => { if (row >= 0) { ring.setAttribute("cx", places[row][0]); ring.setAttribute("cy", places[row][1]); ring.setAttribute("visibility", "visible"); } };
   const at_pointer = (event) => {
