@@ -103,12 +103,13 @@ ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& set
     ProfileRequest request = stretch.request;
     if (caps)
       for (const SpeedCap& cap : caps(place, stretch)) request.speed_caps.push_back(cap);
-    const BaselineResult result =
+    BaselineResult result =
         controlled_stretch(request, least_of(settings(place, stretch), fastest_settings(place, stretch)));
     drive.energy_J += result.energy_J - stretch.energy.total_J();
     drive.motion_energy_J += result.motion_energy_J - stretch.energy.motion_J();
     drive.duration_s += result.duration_s - stretch.profile.duration_s();
     drive.stretch_s.push_back(result.duration_s);
+    drive.profiles.push_back(std::move(result.profile).value_or(Profile{}));
     if (!result.feasible && drive.broken_limit.empty())
       drive.broken_limit = "leg " + leg_text(place.leg, plan.legs[place.leg].to) + ": " + result.reason;
   });

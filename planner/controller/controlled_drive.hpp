@@ -29,6 +29,7 @@ struct ControlledDrive {
   double motion_energy_J{};  ///< without standby
   double duration_s{};
   std::vector<double> stretch_s{};  ///< driving time of each stretch
+  std::vector<Profile> profiles{};  ///< of each stretch; without nodes where there is none
   std::string broken_limit{};       ///< the first exceeded limit, with its place; empty: none
 };
 

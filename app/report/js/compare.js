@@ -1,6 +1,7 @@
 /** `joulepath compare`: profiles of one path overlaid. `joulepath front`: energy against time. */
 import {h} from "page/dom.js";
 import {is_number, number, percent, with_unit, words} from "page/numbers.js";
+import {kMarks} from "page/plot.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
 import "report/plan.js";
@@ -11,8 +12,8 @@ const kSteps = 1200;  // places of the cursor
 const kDashes = [null, [6, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 4]];
 /** The look of the k-th line; lines of the same color have different dashes. */
 const look_of = (k) => ({color: kSeriesColors[k % 6], dash: kDashes[(k + Math.floor(k / 6)) % 6]});
-/** The same beside a line of the first look. */
-const look_beside = (k) => ({color: kSeriesColors[1 + k % 5], dash: kDashes[1 + (k + Math.floor(k / 5)) % 5]});
+/** Marks beside a line of the first color. */
+const marks_of = (k) => ({color: kSeriesColors[1 + k % 5], mark: kMarks[k % kMarks.length], points: 4.5});
 
 /** A profile's name, with the seconds by which it is later than what it stands beside. */
 jp.profile_name = (one) => words(one.name) + (one.later_s ? `, ${number(one.later_s, 2)} s later` : "");
@@ -56,12 +57,14 @@ const saved_percent = (one) => 100 * (1 - one.optimum_J / one.energy_J);
 /** A controller's settings on the plan's path: in their own time, and waiting until the plan's time. */
 function draw_loss(data, loss) {
   const own = loss.own_time, rows = [["settings, their own time", own], ...(loss.plan_time ? [["settings, then waiting until the plan's time", loss.plan_time]] : [])];
+  const motions = jp.overlaid_profiles(data.profiles || []);
   const list = (title, items) => (items || []).length ? h("details", {}, h("summary", {}, `${title}: ${items.length}`), h("ul", {}, items.map((one) => h("li", {}, one)))) : null;
   jp.page(jp.header(data.title || "Comparison", `${jp.against_text("These settings", own)} The plan: ${jp.cost_text(loss.plan)}.`, loss.broken_limit ? "exceeds a limit" : null, false),
     h("div", {class: "tiles"}, jp.tile("These settings", with_unit(own.energy_J, "J", 5), with_unit(own.duration_s, "s")), jp.tile("Optimal in their time", with_unit(own.optimum_J, "J", 5), `${percent(own.lost_percent, 2)} less`),
       jp.tile("The plan", with_unit(loss.plan.energy_J, "J", 5), with_unit(loss.plan.duration_s, "s"))),
     jp.beside_map(data, jp.section("Energy", jp.table(["same path", {n: "time s"}, {n: "energy J"}, {n: "least J in it"}, {n: "saving"}], [...rows.map(([name, one]) => [name, {n: number(one.duration_s)}, {n: number(one.energy_J, 6)}, {n: number(one.optimum_J, 6)}, {n: percent(one.lost_percent)}]),
       ["plan", {n: number(loss.plan.duration_s)}, {n: number(loss.plan.energy_J, 6)}, {n: ""}, {n: ""}]]), loss.plan_time ? null : h("p", {class: "soft"}, "The settings are later than the plan."), loss.broken_limit ? h("p", {}, `Exceeds a limit: ${loss.broken_limit}`) : null),
+    motions, motions ? h("p", {class: "soft"}, "Each in its own time." + jp.dwell_text([loss.plan], data.profiles)) : null,
     jp.section("The file", h("p", {class: "soft"}, loss.of), list("Parameters read", loss.parameters), list("Not used", loss.unused), list("Not modelled", loss.not_modelled))));
 }
 
@@ -110,7 +113,9 @@ jp.draw_front = function (data) {
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && is_number(one[key]) ? one[key] : null; });
   const cursor = jp.cursor(x.length, (row) => {
     const one = points.find((entry) => entry.duration_s === x[row]);
-    return `${number(x[row])} s` + (one ? ` · ${with_unit(one.energy_J, "J")}` + (is_number(one.price_of_time_W) ? ` · value of a second ${with_unit(one.price_of_time_W, "W")}` : "") : "");
+    const careful = sure.find((entry) => entry.duration_s === x[row]);
+    const beside = near.filter((entry) => entry.duration_s === x[row]).sort((a, b) => a.energy_J - b.energy_J).map((entry) => ` · ${words(entry.name)} ${with_unit(entry.energy_J, "J", 5)}`);
+    return with_unit(x[row], "s", 5) + (one ? ` · optimal ${with_unit(one.energy_J, "J", 5)}` + (is_number(one.price_of_time_W) ? ` · value of a second ${with_unit(one.price_of_time_W, "W")}` : "") : "") + (careful ? ` · with margins ${with_unit(careful.energy_J, "J", 5)}` : "") + beside.join("");
   });
   // The slope of the energy is the price of a second; standby adds the same to each second of both.
   const standby_W = (list) => (list.length > 1 ? (list.at(-1).energy_J - list.at(-1).motion_energy_J - list[0].energy_J + list[0].motion_energy_J) / (list.at(-1).duration_s - list[0].duration_s) : 0);
@@ -118,7 +123,7 @@ jp.draw_front = function (data) {
   const series = (name, list, key, look, priced) => ({name, values: find(list, key), curve: curve(list, key, priced), ...look});
   const make = (title, key) => jp.plot({title, unit: "J", x: () => x, x_label: () => "duration, s", cursor, tall: true, fitted: true, series: [series("optimal", points, key, {color: "plan", points: 3}, true),
     ...(sure.length ? [series(`with margins for ${percent(100 * data.front.confidence.asked, 4)}`, sure, key, {color: "limit", points: 2}, true)] : []),
-    ...names.map((name, k) => series(words(name), near.filter((one) => one.name === name).sort((a, b) => a.duration_s - b.duration_s), key, {...look_beside(k), points: 2}))]});
+    ...names.map((name, k) => ({name: words(name), values: find(near.filter((one) => one.name === name), key), ...marks_of(k)}))]});
   const plots = [make("Energy at the battery, with standby", "energy_J")];
   if (points.some((one) => is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
   const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, own time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "least J in it"}, {n: "saving"}], others.map((one) => [jp.profile_name(one), {n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.optimum_J, 6)}, {n: percent(saved_percent(one), 3)}]))) : null;
@@ -126,7 +131,7 @@ jp.draw_front = function (data) {
   const sentence = points.length ? `The fastest drive: ${jp.cost_text(fastest)}. The most economical: ${jp.cost_text(least)} (${percent(100 * (1 - least.energy_J / fastest.energy_J), 2)} less).` : "No point.";
   jp.page(jp.header(data.title || "Energy against time", sentence, null, true),
     points.length ? h("div", {class: "tiles"}, jp.tile("Least energy", with_unit(least.energy_J, "J"), `at ${with_unit(least.duration_s, "s")}`), jp.tile("Fastest", with_unit(points[0].duration_s, "s"), with_unit(points[0].energy_J, "J")), jp.tile("Points", String(points.length))) : null,
-    h("p", {class: "soft"}, "Each point is the least energy for its duration on the planned paths. The slope is the price of a second."),
+    h("p", {class: "soft"}, "Each point is the least energy for its duration on the planned paths. The slope is the price of a second." + (names.length ? " Marks are classic profiles in their own times; slider and pointer name them." : "")),
     jp.beside_map(data, jp.section("The front", cursor.element, h("div", {class: "plots"}, plots.map((plot) => plot.element)))),
     jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "value of a second, W"}, "status"], points.map((one) => [{n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.price_of_time_W, 4)}, words(one.status || "")]))), beside);
 };

@@ -1,7 +1,7 @@
 /** A cursor over rows that several plots (and a map) share: a slider for keys and touch, a readout, the stretch that is shown. */
 import {h, key} from "page/dom.js";
 import {number, row_at, value_at} from "page/numbers.js";
-import {plot} from "page/plot.js";
+import {mark_picture, plot} from "page/plot.js";
 import {color} from "page/theme.js";
 
 let cursors = 0;
@@ -39,19 +39,19 @@ export function cursor(count, describe) {
 }
 
 /**
- * A plot that follows a cursor: {title, unit, series: [{name, values, color, dash, width, points, xs(), curve: {xs, ys}, band:
+ * A plot that follows a cursor: {title, unit, series: [{name, values, color, dash, width, points, mark, xs(), curve: {xs, ys}, band:
  * {xs(), low, high}}], limits: [numbers], x(), x_label(), cursor, tall, fitted}. x() is the axis of the cursor's rows; a
- * series may have its own. A curve joins the points of its series.
+ * series may have its own. A curve joins the points of its series; marks are not joined, and only legend and readout name them.
  */
 export function row_plot({title, unit, series, limits = [], cursor: shared, x, x_label, tall, fitted}) {
-  const keys = series.map((one) => key(one.name, `var(--${one.color})`, one.dash || ""));
+  const keys = series.map((one) => key(one.name, `var(--${one.color})`, one.mark ? mark_picture(one.mark, `var(--${one.color})`) : one.dash || ""));
   if (series.some((one) => one.band)) keys.push(key("95 % interval", "color-mix(in srgb, var(--plan) 30%, var(--ground))", "box"));
   if (limits.length) keys.push(key("limit", "var(--limit)", [7, 4]));
   const xs_of = (one) => (one.xs || x)();
-  const now = (at) => series.map((one) => number(one.xs ? value_at(xs_of(one), one.values, at) : one.values[shared.row], 4)).join(" · ") + "\u202f" + unit;
+  const now = (at) => series.filter((one) => !one.mark).map((one) => number(one.xs ? value_at(xs_of(one), one.values, at) : one.values[shared.row], 4)).join(" · ") + "\u202f" + unit;
   const content = () => {
     const at = shared.row < 0 ? null : x()[shared.row];
-    const line = (one) => ({xs: xs_of(one), ys: one.values, stroke: color(one.color), dash: one.dash, width: one.width, dots: one.points, apart: !!one.curve});
+    const line = (one) => ({xs: xs_of(one), ys: one.values, stroke: color(one.color), dash: one.dash, width: one.width, dots: one.points, mark: one.mark, apart: !!(one.curve || one.mark)});
     const area = ({band, color: name}) => ({xs: band.xs(), low: band.low, high: band.high, fill: color(name)});
     return {areas: series.filter((one) => one.band).map(area), lines: series.flatMap((one) => [...(one.curve ? [{...line(one), ...one.curve, dots: 0, apart: false}] : []), line(one)]), limits, label: x_label && x_label(),
       fitted, span: shared.span, x: at, now: at === null ? "" : now(at)};

@@ -24,8 +24,9 @@ function dashes(color, pattern) {
   const stops = pattern.map((length, k) => { const from = at; at += length; return `${k % 2 ? "transparent" : color} ${from}px ${at}px`; });
   return `background:repeating-linear-gradient(90deg, ${stops.join(", ")})`;
 }
-/** An entry of a legend; `look`: "" a line, "box", or the dash pattern of the line. */
+/** An entry of a legend; `look`: "" a line, "box", the dash pattern of the line, or a picture. */
 export const key = (text, color, look = "") => {
+  if (look instanceof Node) return h("span", {class: "key"}, look, text);
   const dashed = Array.isArray(look);
   return h("span", {class: "key"}, h("i", {class: dashed ? "dash" : look, style: dashed ? dashes(color, look) : look === "box" ? `background:${color}` : `border-color:${color}`}), text);
 };

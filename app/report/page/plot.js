@@ -3,6 +3,24 @@ import {h, sharp} from "page/dom.js";
 import {is_number, short, ticks} from "page/numbers.js";
 import {color} from "page/theme.js";
 
+/** Outlines of marks around 0; a mark without one is a circle. */
+const kOutlines = {square: [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]], triangle: [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]], diamond: [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]],
+  wedge: [[0, 1.2], [1.1, -0.8], [-1.1, -0.8]], hourglass: [[-1, -1.1], [1, -1.1], [-1, 1.1], [1, 1.1]], bow: [[-1.1, -1], [1.1, 1], [1.1, -1], [-1.1, 1]], bar: [[-1.3, -0.5], [1.3, -0.5], [1.3, 0.5], [-1.3, 0.5]],
+  post: [[-0.5, -1.3], [0.5, -1.3], [0.5, 1.3], [-0.5, 1.3]], house: [[0, -1.3], [1, -0.2], [1, 1], [-1, 1], [-1, -0.2]]};
+export const kMarks = ["circle", ...Object.keys(kOutlines)];
+function draw_mark(context, x, y, mark, size) {
+  const outline = kOutlines[mark];
+  context.beginPath();
+  if (outline) outline.forEach(([right, down]) => context.lineTo(x + size * right, y + size * down)); else context.arc(x, y, size, 0, 7);
+  context.closePath(); context.lineWidth = 1.6; context.stroke();
+}
+/** A mark as a picture, for a legend. */
+export function mark_picture(mark, stroke) {
+  const element = (tag, attributes, ...children) => { const node = document.createElementNS("http://www.w3.org/2000/svg", tag); Object.entries(attributes).forEach(([name, value]) => node.setAttribute(name, value)); node.append(...children); return node; };
+  const shape = kOutlines[mark] ? element("polygon", {points: kOutlines[mark].map((corner) => corner.map((part) => 4.5 * part).join(",")).join(" ")}) : element("circle", {r: 4.5});
+  return element("svg", {viewBox: "-7 -1.5 14 3", width: 14, height: 3, "aria-hidden": "true", style: `flex:none;overflow:visible;fill:none;stroke:${stroke};stroke-width:1.6`}, shape);
+}
+
 const kLeft = 54, kRight = 10, kTop = 8, kBottom = 20, kLabel = 17, kBand = 6, kDrag_px = 8;
 
 /** Whether a limit is near enough to what is drawn to be shown. */
@@ -38,7 +56,7 @@ function draw_axes(context, frame, label) {
   if (label) context.fillText(label, (kLeft + width - kRight) / 2, bottom + kBottom);
 }
 
-function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dots, apart}) {
+function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dots, apart, mark}) {
   const {X, Y} = frame;
   context.strokeStyle = context.fillStyle = stroke; context.lineWidth = width; context.setLineDash(dash || []);
   context.beginPath();
@@ -51,7 +69,8 @@ function draw_line(context, frame, {xs, ys, stroke, dash, width = 1.6, step, dot
   });
   if (!apart) context.stroke();
   context.setLineDash([]);
-  if (dots) ys.forEach((y, k) => { if (is_number(y)) { context.beginPath(); context.arc(X(xs[k]), Y(y), dots, 0, 7); context.fill(); } });
+  if (mark) ys.forEach((y, k) => { if (is_number(y)) draw_mark(context, X(xs[k]), Y(y), mark, dots); });
+  else if (dots) ys.forEach((y, k) => { if (is_number(y)) { context.beginPath(); context.arc(X(xs[k]), Y(y), dots, 0, 7); context.fill(); } });
 }
 
 function draw_area(context, {X, Y}, {xs, low, high, fill}) {
@@ -117,7 +136,8 @@ function listen(canvas, frame_now, {point, zoom}, selected) {
 /**
  * {title, unit, keys, tall, content(), point(x), zoom(span)}: `point` is told where the pointer is, `zoom` which stretch
  * was chosen (null: all). content() gives what is drawn now, or null:
- *   lines   [{xs, ys, stroke, dash, width, step, dots, apart}]; ys hold null where there is nothing; apart: dots alone
+ *   lines   [{xs, ys, stroke, dash, width, step, dots, apart, mark}]; ys hold null where there is nothing; apart: dots alone;
+ *           mark: one of kMarks instead of a full dot
  *   areas   [{xs, low, high, fill}], bands under the lines
  *   limits  heights of dashed lines          fitted  whether the range follows the lines alone instead of holding 0
  *   band    {xs, color_of(row)}, a strip     span    the stretch of the axis that is shown

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
 #include "app/plan/loss_table.hpp"
+#include "app/plan/profile_columns.hpp"
 #include "extensions/nav2/commands/nav2_commands.hpp"
 #include "extensions/nav2/controller_settings.hpp"
 #include "scenarios/export/loss_json.hpp"
@@ -27,7 +29,8 @@ class SettingsComparison : public PlanComparison {
   int run(const Plan& plan, const report::MissionExtras& extras, const AnalysisOptions& options,
           OutputDirectory& out, const std::string& result_file) override {
     const ControllerFile settings = read_controller_settings(controller_, plugin_);
-    const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
+    const ControlledDrive drive = drive_with(plan, settings);
+    const ControllerLoss loss = loss_of(plan, drive);
     nlohmann::json result{{"schema", "joulepath/loss/1"},
                           {"of", controller_},
                           {"mission", plan.mission},
@@ -37,7 +40,8 @@ class SettingsComparison : public PlanComparison {
                           {"not_modelled", settings.not_modelled}};
     result.update(loss_json(loss));
     if (writes_analysis(options))
-      write_analysis(out, result_file, result, report::compare_report_html({{"loss", result}}, {}, extras));
+      write_analysis(out, result_file, result,
+                     report::compare_report_html({{"loss", result}}, motions(plan, drive), extras));
     if (prints_analysis_table(options, result)) {
       print_reading(settings);
       print_loss(std::cout, plan, loss);
@@ -47,6 +51,22 @@ class SettingsComparison : public PlanComparison {
   }
 
  private:
+  /// The plan and the drive with the settings, for plots; none where the settings cannot drive a stretch.
+  static std::vector<report::NamedColumns> motions(const Plan& plan, const ControlledDrive& drive) {
+    constexpr int kMostSamples = 300, kLeastOfStretch = 12;
+    std::vector<const ProfileRequest*> requests;
+    std::vector<Profile> planned;
+    for_each_stretch(plan, [&](const StretchPlace&, const StretchPlan& stretch) {
+      requests.push_back(&stretch.request);
+      planned.push_back(stretch.profile);
+    });
+    if (std::ranges::any_of(drive.profiles, [](const Profile& one) { return one.time_s.empty(); })) return {};
+    const int count = std::max(1, static_cast<int>(requests.size()));
+    const int samples = std::max(kLeastOfStretch, kMostSamples / count - 1);
+    return {{"plan", profile_columns(requests, planned, samples)},
+            {"settings", profile_columns(requests, drive.profiles, samples)}};
+  }
+
   static void print_reading(const ControllerFile& settings) {
     const auto line = [](const char* what, const std::vector<std::string>& of) {
       for (const std::string& one : of) std::cout << what << one << '\n';

@@ -1,9 +1,10 @@
 /** `joulepath sweep`: the best design, the Pareto front, the effect of each parameter, the reasons why designs do not count. */
 import {h, key} from "page/dom.js";
 import {fraction, number, percent, short, split_key, ticks, with_unit, words} from "page/numbers.js";
-import {ramp} from "page/theme.js";
+import {ramp, ramp_css} from "page/theme.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
+import "report/plots.js";
 
 const value_text = (value) => (typeof value === "number" ? short(value, 6) : String(value));
 /** The unit of a parameter: that of its name, else of its key. */
@@ -11,52 +12,96 @@ const unit_of = (parameter) => split_key(parameter.name).unit || split_key(param
 const parameter_text = (parameter, value) => [split_key(parameter.name).words, value_text(value), unit_of(parameter)].filter(Boolean).join(" ");
 const design_text = (sweep, one) => sweep.parameters.map((parameter) => parameter_text(parameter, one.parameters[parameter.name])).join(", ");
 
-/** The cloud in the colors of one parameter, which a list chooses. */
+const svg = (tag, attributes, text) => { const node = document.createElementNS("http://www.w3.org/2000/svg", tag); Object.entries(attributes).forEach(([key, value]) => node.setAttribute(key, value)); if (text) node.textContent = text; return node; };
+const svg_text = (attributes, content) => svg("text", {"font-size": 13, fill: "var(--soft)", ...attributes}, content);
+
+/** Designs as {duration_s, energy_J, within, values}, in the order of their durations. */
+function designs_of(sweep) {
+  const typed = (value) => (isFinite(Number(value)) ? Number(value) : value);
+  return (sweep.cloud || []).map(([duration_s, energy_J, within, values]) => ({duration_s, energy_J, within, values: values.map(typed)})).sort((a, b) => a.duration_s - b.duration_s || a.energy_J - b.energy_J);
+}
+const dot_text = (sweep, one) => `${sweep.parameters.map((parameter, k) => parameter_text(parameter, one.values[k])).join(", ")}: ${with_unit(one.energy_J, "J", 6)}, ${with_unit(one.duration_s, "s", 5)}` + (one.within ? "" : ", outside the constraints");
+
+/** The cloud in the colors of one parameter, which a list chooses. A slider for keys, or the pointer, names a dot. */
 jp.design_cloud = function (sweep) {
+  const designs = designs_of(sweep), front = sweep.pareto || [];
+  if (designs.length + front.length < 2) return null;
   const box = h("div"), chosen = h("select", {id: "color-by", onchange: () => draw()}, sweep.parameters.map((one, k) => h("option", {value: k}, split_key(one.name).words)));
-  const draw = () => { const picture = cloud_picture(sweep, Number(chosen.value)); if (picture) box.replaceChildren(picture); };
+  const named = jp.cursor(designs.length, (row) => dot_text(sweep, designs[row]));
+  named.element.querySelector("input").setAttribute("aria-label", "Design, in the order of durations");
+  named.element.querySelector(".readout").textContent = "Move over the dots, or use the slider and its arrow keys: each dot is a design.";
+  let point = () => {};
+  const draw = () => { const drawn = cloud_picture(sweep, designs, front, Number(chosen.value), named); point = drawn.point; point(named.row); box.replaceChildren(drawn.element); };
+  named.follow((row) => point(row));
   draw();
   jp.redraws.push(draw);
-  return h("div", {}, h("p", {class: "small"}, h("label", {for: "color-by"}, "Color by "), chosen), box);
+  return h("div", {}, h("p", {class: "small"}, h("label", {for: "color-by"}, "Color by "), chosen), designs.length ? named.element : null, box);
 };
 
-/** Energy against duration: every design a dot, the Pareto front on top. */
-function cloud_picture(sweep, p) {
-  const front = (sweep.pareto || []).map((one) => [one.duration_s, one.energy_J]);
-  const typed = (value) => (isFinite(Number(value)) ? Number(value) : value);
-  const dots = (sweep.cloud || []).map(([time, energy, within, values]) => [time, energy, within, values.map(typed)]), parameter = sweep.parameters[p];
-  const levels = [...new Set(dots.map((one) => one[3][p]))].sort((a, b) => (typeof a === "number" && typeof b === "number" ? a - b : String(a) < String(b) ? -1 : 1));
-  const place = (value) => (typeof value === "number" && levels.at(-1) > levels[0] ? (value - levels[0]) / (levels.at(-1) - levels[0]) : levels.length > 1 ? levels.indexOf(value) / (levels.length - 1) : 0), color_of = (value) => ramp(place(value));
-  const all = [...front, ...dots];
-  if (all.length < 2) return null;
-  const [height, left, right, bottom, top] = [340, 78, 30, 44, 12];
-  const width = Math.max(320, Math.min(900, document.documentElement.clientWidth - 48));
-  const range = (k) => { const values = all.map((one) => one[k]); const low = Math.min(...values), high = Math.max(...values); const pad = 0.04 * (high - low || Math.abs(high) || 1); return [low - pad, high + pad]; };
-  const [t, e] = [range(0), range(1)];
-  const x = (value) => left + (width - left - right) * (value - t[0]) / (t[1] - t[0]);
-  const y = (value) => height - bottom - (height - bottom - top) * (value - e[0]) / (e[1] - e[0]);
-  const svg = (tag, attributes, text) => { const node = document.createElementNS("http://www.w3.org/2000/svg", tag); Object.entries(attributes).forEach(([key, value]) => node.setAttribute(key, value)); if (text) node.textContent = text; return node; };
-  const picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${dots.length} designs, energy against duration; ${front.length} on the Pareto front`, style: `width:100%;max-width:${width}px;height:auto`});
-  const text = (attributes, content) => svg("text", {"font-size": 13, fill: "var(--soft)", ...attributes}, content);
-  for (const at of ticks(...e, 5)) picture.append(svg("line", {x1: left, x2: width - right, y1: y(at), y2: y(at), stroke: "var(--grid)"}), text({x: left - 8, y: y(at) + 4, "text-anchor": "end"}, short(at, 5)));
-  for (const at of ticks(...t, width / 110)) picture.append(text({x: x(at), y: height - bottom + 18, "text-anchor": "middle"}, short(at, 5)));
-  picture.append(text({x: (left + width) / 2, y: height - 6, "text-anchor": "middle"}, "duration of all missions, s"),
-    text({x: 14, y: (height - bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 14 ${(height - bottom) / 2})`}, "energy, J"));
-  front.forEach(([time, energy]) => picture.append(svg("circle", {cx: x(time), cy: y(energy), r: 8, fill: "none", stroke: "var(--second)", "stroke-width": 2})));
-  dots.forEach(([time, energy, within, values]) => {
-    const dot = svg("circle", {cx: x(time), cy: y(energy), r: 4, fill: within ? color_of(values[p]) : "none", stroke: within ? "none" : color_of(values[p])});
-    dot.append(svg("title", {}, `${sweep.parameters.map((one, k) => parameter_text(one, values[k])).join(", ")}: ${with_unit(energy, "J", 6)}, ${with_unit(time, "s", 5)}`));
+/** The levels of a parameter in order, and the color of each. */
+function scale_of(designs, p) {
+  const levels = [...new Set(designs.map((one) => one.values[p]))].sort((a, b) => (typeof a === "number" && typeof b === "number" ? a - b : String(a) < String(b) ? -1 : 1));
+  const numeric = levels.every((value) => typeof value === "number") && levels.at(-1) > levels[0];
+  const place = (value) => (numeric ? (value - levels[0]) / (levels.at(-1) - levels[0]) : levels.length > 1 ? levels.indexOf(value) / (levels.length - 1) : 0);
+  return {levels, numeric, color_of: (value) => ramp(place(value))};
+}
+function cloud_legend({levels, numeric, color_of}, parameter, has_hollow) {
+  const shades = numeric && levels.length > 6 ? h("span", {class: "scale", style: "display:inline-flex;margin:0 10px 0 0"}, parameter_text(parameter, levels[0]), h("span", {class: "ramp", style: `background:${ramp_css()}`}), parameter_text(parameter, levels.at(-1)))
+    : levels.map((value) => key(parameter_text(parameter, value), color_of(value), "box"));
+  const circle = (px, line, text) => h("span", {class: "key"}, h("i", {style: `width:${px}px;height:${px}px;border:${line};border-radius:50%`}), text);
+  return h("p", {class: "small"}, circle(14, "2px solid var(--second)", "ring: Pareto front"), shades, has_hollow ? circle(11, "3px solid var(--soft)", "hollow: outside the constraints") : null);
+}
+
+/** Energy against duration: every design a dot, the Pareto front ringed. {element, point(row)}: point shows which dot is named. */
+function cloud_picture(sweep, designs, front, p, named) {
+  const parameter = sweep.parameters[p], scale = scale_of(designs, p);
+  const width = Math.max(320, Math.min(1400, document.documentElement.clientWidth - 48)), height = Math.max(340, Math.min(480, 0.36 * width));
+  const [left, right, bottom, top] = [78, 30, 44, 12];
+  const range = (name) => { const values = [...front, ...designs].map((one) => one[name]); const low = values.reduce((a, b) => Math.min(a, b)), high = values.reduce((a, b) => Math.max(a, b)); const pad = 0.06 * (high - low || Math.abs(high) || 1); return [low - pad, high + pad]; };
+  const [t, e] = [range("duration_s"), range("energy_J")];
+  const place = (one) => [left + (width - left - right) * (one.duration_s - t[0]) / (t[1] - t[0]), height - bottom - (height - bottom - top) * (one.energy_J - e[0]) / (e[1] - e[0])];
+  const picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${designs.length} designs, energy against duration; ${front.length} on the Pareto front`, style: `display:block;width:100%;max-width:${width}px;height:auto;touch-action:pan-y`});
+  for (const at of ticks(...e, 5)) { const [, y] = place({duration_s: t[0], energy_J: at}); picture.append(svg("line", {x1: left, x2: width - right, y1: y, y2: y, stroke: "var(--grid)"}), svg_text({x: left - 8, y: y + 4, "text-anchor": "end"}, short(at, 5))); }
+  for (const at of ticks(...t, width / 110)) picture.append(svg_text({x: place({duration_s: at, energy_J: e[0]})[0], y: height - bottom + 18, "text-anchor": "middle"}, short(at, 5)));
+  picture.append(svg_text({x: (left + width) / 2, y: height - 6, "text-anchor": "middle"}, "duration of all missions, s"),
+    svg_text({x: 14, y: (height - bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 14 ${(height - bottom) / 2})`}, "energy, J"));
+  front.forEach((one) => { const [cx, cy] = place(one); picture.append(svg("circle", {cx, cy, r: 9, fill: "none", stroke: "var(--second)", "stroke-width": 2})); });
+  const places = designs.map(place);
+  designs.forEach((one, k) => {
+    const [cx, cy] = places[k], shade = scale.color_of(one.values[p]);
+    if (!one.within) picture.append(svg("circle", {cx, cy, r: 4.5, fill: "none", stroke: "var(--soft)", "stroke-width": 4}));  // edges that stand out of the ground in every shade
+    const dot = svg("circle", {cx, cy, r: one.within ? 5 : 4.5, fill: one.within ? shade : "none", stroke: one.within ? "var(--soft)" : shade, "stroke-width": one.within ? 1 : 2.2});
+    dot.append(svg("title", {}, dot_text(sweep, one)));
     picture.append(dot);
   });
-  const taken = [];  // a label that would lie on another one is left out
-  for (const one of sweep.pareto || []) {
-    const at = [x(one.duration_s), y(one.energy_J)], words_here = value_text(one.parameters[parameter.name]);
-    if (taken.some(([px, py]) => Math.abs(px - at[0]) < 60 && Math.abs(py - at[1]) < 16)) continue;
-    taken.push(at);
-    picture.append(text({x: at[0] + (at[0] > width / 2 ? -11 : 11), y: at[1] + 4, "text-anchor": at[0] > width / 2 ? "end" : "start"}, words_here));
+  front_labels(picture, front, places, place, [left, width], (one) => [value_text(one.parameters[parameter.name]), unit_of(parameter)].filter(Boolean).join("\u202f"));
+  const ring = svg("circle", {r: 12, fill: "none", stroke: "var(--ink)", "stroke-width": 3, visibility: "hidden", class: "named"});
+  picture.append(ring);
+  const point = (row) => { if (row >= 0) { ring.setAttribute("cx", places[row][0]); ring.setAttribute("cy", places[row][1]); ring.setAttribute("visibility", "visible"); } };
+  const at_pointer = (event) => {
+    const frame = picture.getBoundingClientRect(), zoom = width / frame.width, x = zoom * (event.clientX - frame.left), y = zoom * (event.clientY - frame.top);
+    const far = ([px, py]) => Math.hypot(px - x, py - y), nearest = places.reduce((best, one, k) => (best < 0 || far(one) < far(places[best]) ? k : best), -1);
+    if (nearest >= 0 && far(places[nearest]) < 30) named.set(nearest);
+  };
+  picture.addEventListener("pointermove", at_pointer);
+  picture.addEventListener("pointerdown", at_pointer);
+  return {element: h("div", {}, cloud_legend(scale, parameter, designs.some((one) => !one.within)), picture), point};
+}
+
+/** The chosen parameter's value beside each design of the front, where no dot and no other label is; else none. */
+function front_labels(picture, front, places, place, [least, most], words_of) {
+  const around = (r) => ([x, y]) => [x - r, y - r, x + r, y + r], boxes = [...places.map(around(7)), ...front.map(place).map(around(10))];
+  for (const one of front) {
+    const [x, y] = place(one), content = words_of(one), wide = 7.5 * content.length;
+    const sides = [[x + 13, y + 4, "start", x + 12], [x - 13, y + 4, "end", x - 12 - wide], [x, y + 24, "middle", x - wide / 2], [x, y - 14, "middle", x - wide / 2]];
+    for (const [at_x, at_y, anchor, from] of sides) {
+      const box = [from, at_y - 12, from + wide, at_y + 3];
+      if (box[0] < least || box[2] > most || boxes.some(([x0, y0, x1, y1]) => box[0] < x1 && x0 < box[2] && box[1] < y1 && y0 < box[3])) continue;
+      boxes.push(box);
+      picture.append(svg_text({x: at_x, y: at_y, "text-anchor": anchor}, content));
+      break;
+    }
   }
-  const shown = levels.length > 6 ? [levels[0], levels.at(-1)] : levels;
-  return h("div", {}, h("p", {class: "small"}, key("ring: Pareto front", "var(--second)", "box"), shown.map((value) => key(parameter_text(parameter, value), color_of(value), "box")), dots.some(([, , within]) => !within) ? h("span", {class: "soft"}, "hollow: outside the constraints") : null), picture);
 }
 
 /** The effect of a parameter: the mean of each level, and its share of the variance. */

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of a sweep in headless Chromium: the sentence, units, dots with a name and the color of a chosen parameter, keys, barriers.
+"""The page of a sweep in headless Chromium: the sentence, units, dots that keys and pointer name and a chosen parameter colors, barriers.
 
 usage: page_test.py JOULEPATH
 
@@ -52,9 +52,19 @@ def main():
             by_speed = browser.run(FILLS)
             gear = {text.split(",")[0]: fill for fill, text in by_gear}
             speed = {text.split(", ")[1].split(":")[0]: fill for fill, text in by_speed}
-            assert len(by_gear) == 4 and len(set(gear.values())) == 2 and list(gear) == ["gear ratio 12", "gear ratio 24"], by_gear
+            assert len(by_gear) == 4 and len(set(gear.values())) == 2 and sorted(gear) == ["gear ratio 12", "gear ratio 24"], by_gear
             assert all(fill == gear[text.split(",")[0]] for fill, text in by_gear), by_gear
             assert all(fill == speed[text.split(", ")[1].split(":")[0]] for fill, text in by_speed) and len(set(speed.values())) == 2, by_speed
+            read = "return document.querySelector('.readout').textContent"
+            texts = [text for _, text in by_speed]
+            assert browser.run(read) not in texts
+            browser.press("#cursor", "\ue014")  # right arrow
+            by_keys = browser.run(read)
+            browser.run("const dots = [...document.querySelectorAll('circle')].filter((dot) => dot.querySelector('title')), box = dots.at(-1).getBoundingClientRect();"
+                        "dots[0].closest('svg').dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + box.width / 2 + 8, clientY: box.y + box.height / 2}))")
+            by_pointer = browser.run(read)
+            assert by_keys in texts and by_pointer == texts[-1] != by_keys, f"the slider names {by_keys!r}, the pointer near the last dot {by_pointer!r} of {texts}"
+            assert browser.run("return document.querySelector('circle.named').getAttribute('visibility')") == "visible", "no ring around the named dot"
             check_keyboard(browser, page)
             print("ok: sweep")
         finally:

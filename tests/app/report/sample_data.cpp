@@ -303,6 +303,12 @@ std::vector<NamedColumns> profiles() {
   return {{"plan", trajectory()}, {"trapezoid_max_acceleration", slower}};
 }
 
+std::vector<NamedColumns> loss_motions() {
+  std::vector<NamedColumns> motions = profiles();
+  motions.back().name = "settings";
+  return motions;
+}
+
 json front() {
   json points = json::array(), baselines = json::array();
   for (int k = 0; k < 15; ++k) {

@@ -18,6 +18,7 @@ namespace joulepath::report::sample {
 [[nodiscard]] nlohmann::json compare();
 [[nodiscard]] nlohmann::json loss();
 [[nodiscard]] std::vector<NamedColumns> profiles();
+[[nodiscard]] std::vector<NamedColumns> loss_motions();
 [[nodiscard]] nlohmann::json front();
 [[nodiscard]] nlohmann::json batch();
 

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   const MissionExtras mission{
       "Sample round", "made-up data", map, sample::trajectory(), {"shelf <3> & co", "dock"}};
   write("compare", compare_report_html(sample::compare(), sample::profiles(), mission));
-  write("loss", compare_report_html({{"loss", sample::loss()}}, {}, mission));
+  write("loss", compare_report_html({{"loss", sample::loss()}}, sample::loss_motions(), mission));
   write("front", front_report_html(sample::front(), mission));
   write("batch", batch_report_html(sample::batch()));
 }
