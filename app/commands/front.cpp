@@ -210,6 +210,7 @@ class FrontCommand : public Command {
       write_analysis(out, kResult, result, report::front_report_html(result, extras));
     if (prints_analysis_table(options_, result)) {
       print_points(front.points);
+      if (front.points.size() == 1) std::cout << front.summary.message << '\n';
       if (sure) {
         std::cout << "\nwith the margins of the fastest drive that keeps its promises with "
                   << figure(100 * *confidence_, 4) << " %:\n";

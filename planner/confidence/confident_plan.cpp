@@ -98,15 +98,14 @@ class ConfidentPlanner {
     drive_on_ways_of(std::move(plain));
     std::optional<Plan> refused = find_margins();
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
-      Margins kept_too_little = margins_;
+      const Margins kept_too_little = margins_;
       if (trial > 0) tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
       Plan plan = plan_with(margins_, options_);
       if (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
       if (!is_driven(plan) && trial == 0)
         return as_verdict(with_slack(refused ? *std::move(refused) : std::move(plan)));
-      for (int round = 0; !is_driven(plan) && round < kRounds; ++round)
-        plan = plan_with(margins_ = between(kept_too_little, margins_), options_);
+      if (!is_driven(plan)) plan = plan_between(kept_too_little);
       if (!is_driven(plan)) break;
       if (has_fixed_ways_) take_choices(plan, chosen_);
       sample = judge_.judged(plan, ++seed_);
@@ -132,6 +131,14 @@ class ConfidentPlanner {
     MissionWorld world = world_;
     world.robot.battery.reserve_fraction += margins.reserve;
     return plan_once_(mission, world, with_limit_shares(options, margins.limit_shares()));
+  }
+
+  /// With margins between those that kept too little and the present ones, which no plan leaves.
+  Plan plan_between(const Margins& too_little) {
+    Plan plan{.status = SolveStatus::infeasible};
+    for (int round = 0; !is_driven(plan) && round < kRounds; ++round)
+      plan = plan_with(margins_ = between(too_little, margins_), options_);
+    return plan;
   }
 
   /// Options of plans that only serve to find margins.

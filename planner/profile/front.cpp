@@ -181,7 +181,14 @@ Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t 
     front.summary.message = "no front: a stretch could not be solved";
     return front;
   }
-  front.points = {*fastest, *cheapest};
+  constexpr double kSameTime = 1e-6;  // relative
+  if (cheapest->duration_s <= fastest->duration_s * (1 + kSameTime)) {
+    front.points = {*cheapest};
+    front.summary.message = "the least time is the cheapest: no slower drive saves energy";
+    points = 1;
+  } else {
+    front.points = {*fastest, *cheapest};
+  }
   finish_steps(front.points.size());
   const double typical_W = std::max(0.1, cheapest->energy_J / std::max(1e-9, cheapest->duration_s));
   while (front.points.size() < points) {

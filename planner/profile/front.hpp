@@ -40,7 +40,8 @@ struct Front {
 /// the time of least energy, or of the lowest price where slower is always cheaper. All stretches have the
 /// same price of a second, which is optimal for their sum. Each stretch is transcribed once, with limits
 /// tightened as for its plan; new prices are chosen in the widest gaps of the front. Each point has its own
-/// bound (certification.hpp). The fastest point has an infinite price.
+/// bound (certification.hpp). The fastest point has an infinite price. Where the least time is the cheapest,
+/// the front is that point alone, and the summary's message says so.
 [[nodiscard]] Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points,
                                       double lowest_price_W = 0.0);
 

@@ -143,6 +143,20 @@ TEST(Optimality, FreeTimeOfAStraightLineMeetsTheClosedForm) {
   EXPECT_NEAR(result.profile->duration_s(), T, 1e-3 * T);
 }
 
+/// A second of such a standby is worth any energy of motion.
+TEST(Front, IsOnePointWhereTheLeastTimeIsTheCheapest) {
+  testing::RandomProfiles random(8);
+  ProfileRequest request = random.next(testing::PathClass::bezier);
+  request.solver = SolverChoice::fast;
+  request.plant.robot.power.standby_W = 1e7;
+  const Front front = energy_time_front({{request}}, 12);
+  ASSERT_EQ(front.points.size(), 1u);
+  EXPECT_NE(front.summary.message, "");
+  request.time = {.mode = TimeMode::minimum_time};
+  EXPECT_NEAR(front.points[0].duration_s, solve_profile(request).profile->duration_s(),
+              1e-4 * front.points[0].duration_s);
+}
+
 TEST(Front, SlopesAreThePricesAndEveryPointIsAPlan) {
   testing::RandomProfiles random(8);
   ProfileRequest request = random.next(testing::PathClass::bezier);

@@ -133,7 +133,10 @@ TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   robot.power.sharing = PowerSharing::bus;
   robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.0151}}},
                    {.name = "dragging_wheel", .parameters = {{"torque_Nm", 0.07}}, .side = Side::right},
-                   {.name = "floor_patch", .parameters = {{"coefficient", 0.02}}, .cells = {{0, 1, 2, 3}}, .probability = 0.7}};
+                   {.name = "floor_patch",
+                    .parameters = {{"coefficient", 0.02}},
+                    .cells = {{0, 1, 2, 3}},
+                    .probability = 0.7}};
   robot.uncertainty_correlations = {{"friction_torque_Nm", "viscous_friction_Nm_s_rad", -0.87},
                                     {"resistance_ohm", "torque_constant_Nm_A", 1.0 / 3}};
   const std::string text = robot_text(robot);
