@@ -21,7 +21,7 @@ from ._errors import ConfigError, PlanningError, refused
 from ._files import save
 from ._frames import columns_of, is_frame
 from ._inputs import Progress, called, encodable, file_name, text_of
-from ._plots import axes_or_new, bars
+from ._plots import of_answer
 from ._records import viewed
 from .robots import Robot
 
@@ -65,19 +65,10 @@ class Answer:
         return {key: _column([row[k] for row in rows]) for k, key in enumerate(header)}
 
     def plot(self, axes: Any = None) -> Any:
-        """Energy over duration of a ``front``, energy by profile of a ``compare``; needs matplotlib. Returns the axes."""
-        if self.command == "compare":
-            return bars(axes, {profile.name: profile.energy_J for profile in self.json.profiles if profile.feasible}, "energy, J")
-        if self.command != "front":
-            raise refused("plot", f"an answer of {self.command}", "one of front or compare")
-        axes, points = axes_or_new(axes), self.json.points
-        axes.plot([p.duration_s for p in points], [p.energy_J for p in points], marker=".", label="least energy")
-        for name in dict.fromkeys(baseline.name for baseline in self.json.baselines):
-            driven = [b for b in self.json.baselines if b.name == name and b.feasible]
-            axes.plot([b.duration_s for b in driven], [b.energy_J for b in driven], ".", label=name)
-        axes.set(xlabel="duration, s", ylabel="energy, J")
-        axes.legend()
-        return axes
+        """A ``front`` or a ``sweep``: energy over duration; a ``compare``: energy by profile; a ``batch``: energy and duration
+        by mission, on two axes; a ``calibrate``: the constants' changes. Needs matplotlib. Returns the axes. Raises ConfigError
+        for other commands."""
+        return of_answer(self, axes)
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
         """Writes the command's files. Raises ConfigError where one exists, unless ``force`` is given."""
@@ -193,7 +184,7 @@ def _run(command: str, inputs: Mapping[str, Any], options: Mapping[str, Any], ou
 def _bytes(file: FilePath, folder: str) -> bytes:
     """Content without the temporary folder's name, where it is text."""
     content = file.read_bytes()
-    return content.replace(f"{folder}/".encode(), b"") if file.suffix in (".json", ".html", ".csv", ".yaml") else content
+    return content.replace(f"{folder}/".encode(), b"") if file.suffix in (".json", ".jsonl", ".html", ".csv", ".yaml") else content
 
 
 def check(*files: Source, progress: Progress = None, **options: Any) -> Answer:

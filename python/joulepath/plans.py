@@ -17,6 +17,7 @@ from . import _core
 from ._errors import Infeasible, PlanningError, refused
 from ._files import save
 from ._inputs import Progress, called, caps, file_name, number, numbers, one_of, text_of, times, whole
+from ._plots import over_time
 from ._records import Record
 from ._values import Value
 from .logs import Log
@@ -162,18 +163,7 @@ class Plan(Value):
 
     def plot(self, axes: Any = None) -> Any:
         """Speed and power over time; needs matplotlib. Returns the two axes."""
-        import matplotlib.pyplot as plt
-
-        if axes is None:
-            _, axes = plt.subplots(2, 1, sharex=True)
-        t = self.trajectory["time_s"]
-        axes[0].plot(t, self.trajectory["linear_speed_m_s"], label="speed, m/s")
-        axes[0].plot(t, self.trajectory["angular_speed_rad_s"], label="yaw rate, rad/s")
-        axes[1].plot(t, self.trajectory["battery_power_W"], label="battery power, W")
-        axes[1].set_xlabel("time, s")
-        for axis in axes:
-            axis.legend()
-        return axes
+        return over_time(axes, self.trajectory)
 
     def report(self) -> str:
         """report.html: one self-contained page."""
