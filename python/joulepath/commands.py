@@ -23,6 +23,7 @@ from ._frames import columns_of, is_frame
 from ._inputs import Progress, called, encodable, file_name, text_of
 from ._plots import of_answer
 from ._records import viewed
+from .plans import Plan
 from .robots import Robot
 
 #: A file, a dict with a file's keys, or a robot.
@@ -87,6 +88,8 @@ def _input(name: str, value: Any, folder: FilePath) -> str:
     if isinstance(value, Robot):
         value.save(folder / f"{name}.yaml")
         return str(folder / f"{name}.yaml")
+    if isinstance(value, Plan):
+        return str(value.save(folder / name))
     if is_frame(value) and any(str(key) == "time_s" for key in getattr(value, "columns", value)):
         columns = columns_of(name, value, frozenset(str(key) for key in getattr(value, "columns", value)))
         rows = zip(*([("" if np.isnan(x) else repr(float(x))) for x in column] for column in columns.values()))
@@ -251,7 +254,11 @@ def drift(*days: Source | Any, progress: Progress = None, **options: Any) -> Ans
     return _run("drift", {f"days_{k}": day for k, day in enumerate(days)}, options, progress=progress)
 
 
-def monitor(plan: str | os.PathLike[str], log: Source | Any, robot: Source, **options: Any) -> Answer:
-    """A drive beside its plan, as ``joulepath monitor``; ``plan``: the plan's directory. ``json``: a tuple of events; ``code``
-    is 1 after an alarm. Raises ConfigError."""
+def monitor(plan: Plan | str | os.PathLike[str], log: Source | Any, robot: Source | None = None, **options: Any) -> Answer:
+    """A drive beside its plan, as ``joulepath monitor``; ``plan``: a Plan, or the directory of one, which needs the ``robot``.
+    ``json``: a tuple of events; ``code`` is 1 after an alarm. Raises ConfigError."""
+    if robot is None:
+        if not isinstance(plan, Plan):
+            raise refused("robot", "None", "the robot of the plan in this directory")
+        robot = plan.robot
     return _run("monitor", {"plan": plan, "log": log}, {"robot": robot, **options})

@@ -139,6 +139,10 @@ def test_monitor(program, starter):
     answer = jp.monitor("made", "run_01.csv", "robot.yaml")
     assert (answer.text, answer.code) == (told.stdout, told.returncode)
     assert answer.json[0].event == "status"
+    plan = jp.plan("mission.yaml", solver="fast")
+    assert jp.monitor(plan, "run_01.csv").text == jp.monitor(plan, "run_01.csv", robot="robot.yaml").text == answer.text
+    with pytest.raises(jp.ConfigError, match="robot: found None, accepted: the robot of the plan"):
+        jp.monitor("made", "run_01.csv")
 
 
 def test_errors_are_those_of_the_package(robot, mission):
