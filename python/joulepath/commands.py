@@ -88,7 +88,7 @@ def _input(name: str, value: Any, folder: FilePath) -> str:
     if isinstance(value, Robot):
         value.save(folder / f"{name}.yaml")
         return str(folder / f"{name}.yaml")
-    if isinstance(value, Plan):
+    if isinstance(value, Plan) and name == "plan":
         return str(value.save(folder / name))
     if is_frame(value) and any(str(key) == "time_s" for key in getattr(value, "columns", value)):
         columns = columns_of(name, value, frozenset(str(key) for key in getattr(value, "columns", value)))

@@ -219,7 +219,8 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     ``xy``: waypoints, shape (N, 2) in m, or a Path. ``payload_kg``: at most what the robot may carry. ``time_s``: duration;
     None is that of least energy. ``speed_caps``: limits along the path, shape (N, 3), from (m), to (m), speed (m/s).
     ``solver``: ``ipopt`` (reference) or ``fast``. ``nodes``: of the grid, 10 to 20000.
-    ``accuracy``: relative, of the energy. The GIL is released meanwhile. Raises Infeasible, PlanningError, ConfigError.
+    ``accuracy``: relative, of the energy. Waypoints that look like cm or mm are a UserWarning. The GIL is released meanwhile.
+    Raises Infeasible, PlanningError, ConfigError.
     """
     if not (type(robot) is Robot and type(xy) is Path and type(payload_kg) is float and 0.0 <= payload_kg < math.inf
             and (time_s is None or type(time_s) is float and 0.0 < time_s < math.inf)
