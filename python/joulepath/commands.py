@@ -21,8 +21,9 @@ from ._errors import ConfigError, PlanningError, refused
 from ._files import save
 from ._frames import columns_of, is_frame
 from ._inputs import Progress, called, encodable, file_name, text_of
-from ._plots import axes_or_new, bars
+from ._plots import of_answer
 from ._records import viewed
+from .plans import Plan
 from .robots import Robot
 
 #: A file, a dict with a file's keys, or a robot.
@@ -65,19 +66,10 @@ class Answer:
         return {key: _column([row[k] for row in rows]) for k, key in enumerate(header)}
 
     def plot(self, axes: Any = None) -> Any:
-        """Energy over duration of a ``front``, energy by profile of a ``compare``; needs matplotlib. Returns the axes."""
-        if self.command == "compare":
-            return bars(axes, {profile.name: profile.energy_J for profile in self.json.profiles if profile.feasible}, "energy, J")
-        if self.command != "front":
-            raise refused("plot", f"an answer of {self.command}", "one of front or compare")
-        axes, points = axes_or_new(axes), self.json.points
-        axes.plot([p.duration_s for p in points], [p.energy_J for p in points], marker=".", label="least energy")
-        for name in dict.fromkeys(baseline.name for baseline in self.json.baselines):
-            driven = [b for b in self.json.baselines if b.name == name and b.feasible]
-            axes.plot([b.duration_s for b in driven], [b.energy_J for b in driven], ".", label=name)
-        axes.set(xlabel="duration, s", ylabel="energy, J")
-        axes.legend()
-        return axes
+        """A ``front`` or a ``sweep``: energy over duration; a ``compare``: energy by profile; a ``batch``: energy and duration
+        by mission, on two axes; a ``calibrate``: the constants' changes. Needs matplotlib. Returns the axes. Raises ConfigError
+        for other commands."""
+        return of_answer(self, axes)
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
         """Writes the command's files. Raises ConfigError where one exists, unless ``force`` is given."""
@@ -96,6 +88,8 @@ def _input(name: str, value: Any, folder: FilePath) -> str:
     if isinstance(value, Robot):
         value.save(folder / f"{name}.yaml")
         return str(folder / f"{name}.yaml")
+    if isinstance(value, Plan) and name == "plan":
+        return str(value.save(folder / name))
     if is_frame(value) and any(str(key) == "time_s" for key in getattr(value, "columns", value)):
         columns = columns_of(name, value, frozenset(str(key) for key in getattr(value, "columns", value)))
         rows = zip(*([("" if np.isnan(x) else repr(float(x))) for x in column] for column in columns.values()))
@@ -193,7 +187,7 @@ def _run(command: str, inputs: Mapping[str, Any], options: Mapping[str, Any], ou
 def _bytes(file: FilePath, folder: str) -> bytes:
     """Content without the temporary folder's name, where it is text."""
     content = file.read_bytes()
-    return content.replace(f"{folder}/".encode(), b"") if file.suffix in (".json", ".html", ".csv", ".yaml") else content
+    return content.replace(f"{folder}/".encode(), b"") if file.suffix in (".json", ".jsonl", ".html", ".csv", ".yaml") else content
 
 
 def check(*files: Source, progress: Progress = None, **options: Any) -> Answer:
@@ -260,7 +254,11 @@ def drift(*days: Source | Any, progress: Progress = None, **options: Any) -> Ans
     return _run("drift", {f"days_{k}": day for k, day in enumerate(days)}, options, progress=progress)
 
 
-def monitor(plan: str | os.PathLike[str], log: Source | Any, robot: Source, **options: Any) -> Answer:
-    """A drive beside its plan, as ``joulepath monitor``; ``plan``: the plan's directory. ``json``: a tuple of events; ``code``
-    is 1 after an alarm. Raises ConfigError."""
+def monitor(plan: Plan | str | os.PathLike[str], log: Source | Any, robot: Source | None = None, **options: Any) -> Answer:
+    """A drive beside its plan, as ``joulepath monitor``; ``plan``: a Plan, or the directory of one, which needs the ``robot``.
+    ``json``: a tuple of events; ``code`` is 1 after an alarm. Raises ConfigError."""
+    if robot is None:
+        if not isinstance(plan, Plan):
+            raise refused("robot", "None", "the robot of the plan in this directory")
+        robot = plan.robot
     return _run("monitor", {"plan": plan, "log": log}, {"robot": robot, **options})

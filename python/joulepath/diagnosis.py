@@ -72,6 +72,12 @@ class Diagnosis(Value):
         return tuple(self.json.where)
 
     @property
+    def data_checks(self) -> tuple[Record, ...]:
+        """Channels that contradict physics, as a clock in ms, with the evidence and the entry of ``columns`` that repairs
+        them; ``joulepath check`` tells the same. With any of them the verdict is data_suspect."""
+        return tuple(self.json.get("data_checks", ()))
+
+    @property
     def artifacts(self) -> tuple[str, ...]:
         """Properties of the logs that are not physics, and what was made of them: derived, missing and held values, ignored
         columns, jumps of the clock.
@@ -115,12 +121,14 @@ class Diagnosis(Value):
                                 "dataset_corrected.yaml": self._value.corrected_dataset(os.fspath(directory))}, force)
 
     def __repr__(self) -> str:
-        causes = ", ".join(cause.effect for cause in self.causes)
+        causes = ", ".join([*(cause.effect for cause in self.causes), *(f"{c.channel} {c.kind}" for c in self.data_checks)])
         derived = "".join("; " + artifact for artifact in self.artifacts if "derived in " in artifact)
         return f"Diagnosis({self.verdict}{': ' + causes if causes else ''}{derived})"
 
     def __str__(self) -> str:
-        told = {"note": self.notes, "artifact": self.artifacts, "missing channel": self.missing_channels}
+        suspects = [f"{c.run}: {c.channel} {c.kind}. {c.evidence}{'' if c.evidence.endswith('?') else '.'} Repair: {c.repair}"
+                    for c in self.data_checks]
+        told = {"suspect": suspects, "note": self.notes, "artifact": self.artifacts, "missing channel": self.missing_channels}
         return "\n".join([self.json.sentence, *(f"{kind}: {text}" for kind, texts in told.items() for text in texts)])
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +13,27 @@ from . import _core
 from ._errors import refused
 from ._inputs import file_name, number, numbers, points
 from ._values import Value
+
+
+FAR_POINTS_M = 200.0  # between neighbors, as of the program's path files
+LONG_PATH_M = 5000.0
+
+
+def _doubt_units(waypoints: NDArray[np.float64]) -> None:
+    """Warns of coordinates in cm or mm: points too far apart, or a path too long, for a building or a yard."""
+    apart_m = np.hypot(*np.diff(waypoints, axis=0).T)
+    middle_m, total_m = float(np.sort(apart_m)[len(apart_m) // 2]), float(apart_m.sum())
+    if middle_m > FAR_POINTS_M or total_m > LONG_PATH_M:
+        told = f"points of the path are {middle_m:.4g} m apart (median)" if middle_m > FAR_POINTS_M else f"the path has {total_m:.4g} m"
+        warnings.warn(f"xy: {told}: are the coordinates in cm, or in mm?", stacklevel=_levels_of_the_package())
+
+
+def _levels_of_the_package() -> int:
+    """The stacklevel of a warning at the caller of the package, raised by the caller of this function."""
+    frame, levels = sys._getframe(1), 1
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith(f"{__package__}."):
+        frame, levels = frame.f_back, levels + 1
+    return levels
 
 
 class Path(Value):
@@ -27,7 +50,8 @@ class Path(Value):
         """The natural cubic spline through waypoints, shape (N, 2) in meters.
 
         With ``corner_radius_m`` (one number, or one per waypoint): straight lines whose corners are rounded with
-        that smallest radius; at a radius of 0 the robot turns in place. Raises ConfigError.
+        that smallest radius; at a radius of 0 the robot turns in place. Points that look like cm
+        or mm are a UserWarning. Raises ConfigError.
         """
         waypoints = points("xy", xy)
         radius: NDArray[np.float64] | None = None
@@ -39,6 +63,7 @@ class Path(Value):
             if (radius < 0).any():
                 raise refused("corner_radius_m", f"{radius.min():g}", "numbers >= 0")
         self._value = _core.waypoint_path(waypoints, radius)
+        _doubt_units(waypoints)
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Path:

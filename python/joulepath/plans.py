@@ -17,6 +17,7 @@ from . import _core
 from ._errors import Infeasible, PlanningError, refused
 from ._files import save
 from ._inputs import Progress, called, caps, file_name, number, numbers, one_of, text_of, times, whole
+from ._plots import over_time
 from ._records import Record
 from ._values import Value
 from .logs import Log
@@ -162,18 +163,7 @@ class Plan(Value):
 
     def plot(self, axes: Any = None) -> Any:
         """Speed and power over time; needs matplotlib. Returns the two axes."""
-        import matplotlib.pyplot as plt
-
-        if axes is None:
-            _, axes = plt.subplots(2, 1, sharex=True)
-        t = self.trajectory["time_s"]
-        axes[0].plot(t, self.trajectory["linear_speed_m_s"], label="speed, m/s")
-        axes[0].plot(t, self.trajectory["angular_speed_rad_s"], label="yaw rate, rad/s")
-        axes[1].plot(t, self.trajectory["battery_power_W"], label="battery power, W")
-        axes[1].set_xlabel("time, s")
-        for axis in axes:
-            axis.legend()
-        return axes
+        return over_time(axes, self.trajectory)
 
     def report(self) -> str:
         """report.html: one self-contained page."""
@@ -229,7 +219,8 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     ``xy``: waypoints, shape (N, 2) in m, or a Path. ``payload_kg``: at most what the robot may carry. ``time_s``: duration;
     None is that of least energy. ``speed_caps``: limits along the path, shape (N, 3), from (m), to (m), speed (m/s).
     ``solver``: ``ipopt`` (reference) or ``fast``. ``nodes``: of the grid, 10 to 20000.
-    ``accuracy``: relative, of the energy. The GIL is released meanwhile. Raises Infeasible, PlanningError, ConfigError.
+    ``accuracy``: relative, of the energy. Waypoints that look like cm or mm are a UserWarning. The GIL is released meanwhile.
+    Raises Infeasible, PlanningError, ConfigError.
     """
     if not (type(robot) is Robot and type(xy) is Path and type(payload_kg) is float and 0.0 <= payload_kg < math.inf
             and (time_s is None or type(time_s) is float and 0.0 < time_s < math.inf)

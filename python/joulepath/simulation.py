@@ -6,9 +6,13 @@ import functools
 import re
 from typing import Any, Mapping, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _core
 from ._errors import named_by, refused
 from ._inputs import number, text_of, whole
+from ._plots import over_time
 from .logs import Log
 from .plans import Plan
 from .robots import Robot, robot_of
@@ -27,8 +31,32 @@ class Simulation(Log):
 
     @functools.cached_property
     def executed(self) -> Log:
-        """The exact values at the samples, without sensor errors."""
+        """The exact values at the samples and at the start, without sensor errors."""
         return Log(self._run.executed())
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Time of ``executed``, s, shape (N,); the sensors' first sample is the second."""
+        return self.executed["time_s"]
+
+    @property
+    def v(self) -> NDArray[np.float64]:
+        """Exact speed, m/s, shape (N,)."""
+        return self.executed["linear_speed_m_s"]
+
+    @property
+    def w(self) -> NDArray[np.float64]:
+        """Exact yaw rate, rad/s, shape (N,)."""
+        return self.executed["angular_speed_rad_s"]
+
+    @property
+    def power_W(self) -> NDArray[np.float64]:
+        """Exact power at the battery's terminals, W, shape (N,)."""
+        return self.executed["battery_power_W"]
+
+    def plot(self, axes: Any = None) -> Any:
+        """Exact speed and power over time; needs matplotlib. Returns the two axes."""
+        return over_time(axes, self.executed)
 
     @property
     def energy_J(self) -> float:

@@ -116,6 +116,19 @@ def test_a_motion_whose_times_are_in_ms_is_doubted(robot):
         jp.energy(robot, [0, 600], 0.5)
 
 
+def test_waypoints_in_mm_are_doubted_at_the_caller(robot):
+    for call in (jp.Path, lambda xy: jp.profile(robot, xy, solver="fast", nodes=40)):
+        with pytest.warns(UserWarning, match=r"xy: points of the path are 2000 m apart .median.: are the coordinates in cm, or in mm") as told:
+            call(np.multiply(XY, 1000))
+        assert [warning.filename for warning in told] == [__file__]
+    with pytest.warns(UserWarning, match="xy: the path has 6000 m: are the coordinates"):
+        jp.Path(np.stack([np.linspace(0, 6000, 101), np.zeros(101)], 1))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        jp.Path(XY)
+        jp.Path([[0, 0], [180, 0], [180, 10], [1000, 10], [1000, 20]])
+
+
 def test_results_are_values(robot):
     plan, path = PLAN(robot), jp.Path(XY)
     for value in (plan, path, plan.trajectory, jp.energy(robot, plan.t, plan.v), jp.drives(plan)[0], jp.simulate(plan)):

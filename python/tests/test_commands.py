@@ -4,6 +4,7 @@ import pathlib
 import re
 import subprocess
 
+import numpy as np
 import pytest
 
 import joulepath as jp
@@ -41,7 +42,7 @@ def test_check_compare_and_front_print_the_program_s_bytes(program, mission):
             driven = [p.energy_J for p in answer.json.profiles if p.feasible]
             assert all(p.energy_J is None and p.optimum_J is None for p in answer.json.profiles if not p.feasible)
             assert [bar.get_width() for bar in shown.patches] == driven and len(driven) > 5
-    with pytest.raises(jp.ConfigError, match="one of front or compare"):
+    with pytest.raises(jp.ConfigError, match="one of compare, front, sweep, batch, calibrate .it says whether files are valid"):
         jp.check("mission.yaml", brief=True).plot()
 
 
@@ -83,16 +84,44 @@ def test_batch_and_sweep(program, mission):
     assert answer.text == text
     assert answer.files["sweep.csv"] == pathlib.Path("sweep/sweep.csv").read_bytes()
     assert any(column.dtype == float and len(column) == 2 for column in answer.table("sweep.csv").values())
-    assert jp.batch([mission, {**mission, "robot": "none.yaml"}], nodes=40).code == 1
+    dots, = answer.plot().collections
+    table = answer.table("sweep.csv")
+    assert np.array_equal(dots.get_offsets(), np.transpose([table["duration_s"], table["energy_J"]]))
+    assert np.array_equal(dots.get_array(), table["gear"]) and dots.colorbar.ax.get_ylabel() == "gear (robot.motor.gear_ratio)"
+    answer = jp.batch([mission, {**mission, "robot": "none.yaml"}], nodes=40)
+    assert answer.code == 1 and b"joulepath-" not in answer.files["results.jsonl"]
+    axes = answer.plot()
+    assert [[bar.get_width() for bar in axis.patches] for axis in axes] == [[answer.json[0][key], 0] for key in ("energy_J", "duration_s")]
+    assert [label.get_text() for label in axes[0].get_yticklabels()] == ["line_1", "line_2: bad_input"]
+    assert len(jp.batch([mission], nodes=40).plot()[0].patches) == 1
+
+
+def test_a_sweep_s_plot_sums_missions_and_marks_what_does_not_count(mission):
+    pathlib.Path("missions.jsonl").write_text(2 * (json.dumps(mission) + "\n"))
+    study = {"schema": "joulepath/study/1", "missions": "missions.jsonl", "constraints": {"duration_s": {"max": 6.3}},
+             "parameters": {"goal": {"key": "mission.objective.minimize", "values": ["energy", "time"]}}}
+    answer = jp.sweep(study, nodes=40)
+    table, shown = answer.table("sweep.csv"), answer.plot()
+    assert table["meets_constraints"].tolist() == ["no", "no", "yes", "yes"]
+    dots = {dot.get_label(): dot.get_offsets().tolist() for dot in shown.collections if len(dot.get_offsets())}
+    assert dots == {f"{goal}, {kind}": [[table[key][k] + table[key][k + 1] for key in ("duration_s", "energy_J")]]
+                    for k, goal, kind in ((0, "energy", "outside of a constraint"), (2, "time", "keeps the constraints"))}
+    with pytest.raises(jp.ConfigError, match="a whole sweep"):
+        jp.sweep(study, nodes=40, shard="1/2").plot()
 
 
 def test_calibrate_drift_and_experiment(program, starter):
     answer = jp.calibrate("dataset.yaml")
     assert answer.text == printed(program, "calibrate", "dataset.yaml", "--out", "fitted.yaml")
     assert answer.files["robot.yaml"] == pathlib.Path("fitted.yaml").read_bytes()
+    lines = answer.plot().lines
+    seen = [p for p in answer.json.parameters if p.visibility != "unseen"]
+    assert lines[0].get_xdata() == pytest.approx([100 * (p.value / p.nominal - 1) for p in seen]) and len(seen) > 5
     assert jp.drift("dataset.yaml", "dataset.yaml").text == printed(program, "drift", "dataset.yaml", "dataset.yaml")
     answer = jp.experiment("dataset.yaml")
     assert not answer.files and answer.json is None and "no candidates to separate" in answer.text
+    with pytest.raises(jp.ConfigError, match="one run to drive"):
+        answer.plot()
 
 
 def test_check_names_the_repairs_of_a_dataset(program, starter):
@@ -110,6 +139,10 @@ def test_monitor(program, starter):
     answer = jp.monitor("made", "run_01.csv", "robot.yaml")
     assert (answer.text, answer.code) == (told.stdout, told.returncode)
     assert answer.json[0].event == "status"
+    plan = jp.plan("mission.yaml", solver="fast")
+    assert jp.monitor(plan, "run_01.csv").text == jp.monitor(plan, "run_01.csv", robot="robot.yaml").text == answer.text
+    with pytest.raises(jp.ConfigError, match="robot: found None, accepted: the robot of the plan"):
+        jp.monitor("made", "run_01.csv")
 
 
 def test_errors_are_those_of_the_package(robot, mission):

@@ -1,6 +1,7 @@
 """Frames for the diagnosis: numbers in every form are read, anything else is refused with its column and row."""
 import decimal
 import fractions
+import re
 
 import numpy as np
 import pytest
@@ -27,6 +28,16 @@ def answer(robot, frame, **options):
     found = jp.diagnose(robot, [frame], **options).json.to_dict()
     found.pop("artifacts")
     return found
+
+
+def test_a_clock_in_ms_is_asked_for_with_its_repair(robot, log):
+    in_ms = {**log, "time_s": 1000 * log["time_s"]}
+    d = jp.diagnose(robot, [in_ms])
+    assert d.data_checks == d.json.data_checks and "time_s clock" in repr(d)
+    assert re.search(r"^suspect: all: time_s clock[.] .*[.] Repair: columns: [{]time_s: [{]scale: 0[.]001[}][}]$", str(d), re.MULTILINE)
+    assert not jp.diagnose(robot, [in_ms], columns={"time_s": {"scale": 0.001}}).data_checks
+    wheels = {name: column for name, column in in_ms.items() if name.startswith(("time", "wheel"))}
+    assert re.search(r"^suspect: .* at most 100 s: is the stamp in ms .*[?] Repair: ", str(jp.diagnose(robot, [wheels])), re.MULTILINE)
 
 
 @pytest.mark.parametrize(("value", "found"), [

@@ -108,6 +108,16 @@ def test_frames_plots_and_reports(curve):
     assert "Profile(optimal" in repr(curve)
 
 
+def test_a_simulation_has_the_names_of_a_plan(robot, curve):
+    log = jp.simulate(curve, seed=3)
+    assert log.t.shape == log.v.shape == log.w.shape == log.power_W.shape and np.array_equal(log.t[1:], log["time_s"])
+    assert np.trapezoid(log.v, log.t) == pytest.approx(curve.s[-1], rel=1e-2) and not log.v.flags.owndata
+    assert np.trapezoid(log.power_W, log.t) == pytest.approx(log.energy_J, rel=2e-2)
+    assert jp.energy(robot, log.t, log.v, log.w, payload_kg=5).total_J == pytest.approx(log.energy_J, rel=1e-2)
+    speed, power = log.plot()
+    assert np.array_equal(speed.lines[0].get_ydata(), log.v) and np.array_equal(power.lines[0].get_ydata(), log.power_W)
+
+
 def test_saving_never_overwrites_unasked(curve, tmp_path):
     curve.save(tmp_path)
     with pytest.raises(jp.ConfigError, match="a file that exists"):
