@@ -288,50 +288,60 @@ namespace {
 
 bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
-/// Whether the plan is the fastest one, or too late: where drafts of ways leave a jerk limit out, other ways
-/// may be faster.
-bool may_be_faster(const Plan& plan, const MissionRequest& mission, const MissionWorld& world) {
-  if (!world.robot.limits || std::isinf(world.robot.limits->jerk_m_s3)) return false;
-  if (is_driven(plan)) return mission.objective.minimize == Objective::Minimize::time;
-  const std::string constraint = plan.infeasibility ? plan.infeasibility->reason.constraint : "";
+bool is_late(const Plan& plan) {
+  if (!plan.infeasibility) return false;
+  const std::string& constraint = plan.infeasibility->reason.constraint;
   return constraint == "deadline" || constraint == "duration";
 }
 
-/// Whether ways of searched legs were chosen at other prices than those without a deadline.
-bool chose_at_other_prices(const Plan& plan, const MissionRequest& mission, double first_W) {
-  if (!is_driven(plan) || mission.objective.minimize == Objective::Minimize::time) return false;
-  std::vector<double> price_W;
-  for (const LegPlan& leg : plan.legs) price_W.push_back(std::max(leg.price_of_time_W, first_W));
-  return std::any_of(mission.legs.begin(), mission.legs.end(), searches) &&
-         moved(std::vector<double>(price_W.size(), first_W), price_W);
+bool minimizes_time(const MissionRequest& mission) {
+  return mission.objective.minimize == Objective::Minimize::time;
 }
 
-/// The better one of a plan and of that on the ways of least energy: a deadline costs no more than on the
-/// ways of the mission without it.
-Plan or_on_ways_of_least_energy(Plan plan, const MissionRequest& mission, const MissionWorld& world,
-                                const PlanOptions& options, const RouteSpace* space, const Plant& plant,
-                                const Plan& known) {
-  if (space == nullptr) return plan;
-  MissionRequest cheapest = mission;
-  if (mission.objective.minimize == Objective::Minimize::time)
-    cheapest.objective.minimize = Objective::Minimize::energy;
-  const double first_W = first_price_W(cheapest, world, plant);
-  if (!may_be_faster(plan, mission, world) && !chose_at_other_prices(plan, mission, first_W)) return plan;
-  Plan other = plan_given_legs(mission, world, options, space, plant, known, first_W);
-  const double floor_W = lowest_price_W(mission.objective);
-  const auto cost = [&](const Plan& of) {
-    return std::isinf(floor_W) ? of.duration_s : of.energy.total_J() + floor_W * of.duration_s;
+/// Whether the searched legs of a plan pay the price at which their ways were chosen.
+bool pays(const Plan& plan, const MissionRequest& mission, double way_price_W) {
+  if (minimizes_time(mission)) return true;
+  std::vector<double> price_W;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    price_W.push_back(searches(mission.legs[k]) ? plan.legs[k].price_of_time_W : way_price_W);
+  return !moved(std::vector<double>(price_W.size(), way_price_W), price_W);
+}
+
+/// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
+/// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
+/// the better plan is returned; under a jerk limit, which drafts of ways leave out, the least time is that on
+/// the ways of least energy, too.
+Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                       const RouteSpace* space, const Plant& plant, const Plan& known) {
+  const auto plan_at = [&](std::optional<double> way_price_W) {
+    return plan_given_legs(mission, world, options, space, plant, known, way_price_W);
   };
-  const bool better = is_driven(other) && (!is_driven(plan) || cost(other) < cost(plan));
-  return better ? other : plan;
+  const double first_W = first_price_W(mission, world, plant);
+  Plan best = plan_at(first_W);
+  if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches)) return best;
+  const double floor_W = lowest_price_W(mission.objective);
+  const auto cost = [&](const Plan& plan) {
+    return std::isinf(floor_W) ? plan.duration_s : plan.energy.total_J() + floor_W * plan.duration_s;
+  };
+  const auto or_better = [&](Plan other) {
+    if (is_driven(other) ? !is_driven(best) || cost(other) < cost(best) : !is_driven(best))
+      best = std::move(other);
+  };
+  if (is_late(best) || !pays(best, mission, first_W)) or_better(plan_at({}));
+  if (minimizes_time(mission) && world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3)) {
+    MissionRequest cheapest = mission;
+    cheapest.objective.minimize = Objective::Minimize::energy;
+    Plan other = plan_at(first_price_W(cheapest, world, plant));
+    if (is_driven(other)) or_better(std::move(other));
+  }
+  return best;
 }
 
 /// Plans legs that are given, with ways that keep a leg's own duration, and with stops at chargers.
 Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, const Plan& known) {
   const auto plan_legs = [&](const MissionRequest& legs) {
-    Plan chosen = or_on_ways_of_least_energy(plan_given_legs(legs, world, options, space, plant, known), legs,
-                                             world, options, space, plant, known);
+    Plan chosen = plan_on_best_ways(legs, world, options, space, plant, known);
     if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
       return chosen;
     // Ways are chosen by energy. A way that cannot keep a leg's own duration is replaced by one with stops at
@@ -345,7 +355,7 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
   const auto plan_unrefined = [&](const MissionRequest& legs) {
     PlanOptions unrefined = options;
     unrefined.steps.refinement = false;
-    return plan_given_legs(legs, world, unrefined, space, plant, known);
+    return plan_on_best_ways(legs, world, unrefined, space, plant, known);
   };
   return charge_on_the_way(plan_legs(mission), mission, plant, plan_unrefined, plan_legs);
 }

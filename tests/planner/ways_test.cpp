@@ -94,6 +94,23 @@ TEST(Ways, NoPlanUnderAJerkLimitIsFasterThanTheFastest) {
   }
 }
 
+/// Of the mission and of each of its legs.
+TEST(Ways, ADeadlineThatDoesNotBindChangesNothing) {
+  const Plan free = plan_of(round_of_three(), kCoarse);
+  ASSERT_LE(free.status, SolveStatus::feasible) << free.message;
+  for (std::size_t k = 0; k <= free.legs.size(); ++k) {
+    MissionRequest mission = round_of_three();
+    if (k == free.legs.size())
+      mission.objective.deadline_s = 1.01 * free.duration_s;
+    else
+      mission.legs[k].deadline_s = 1.03 * (free.legs[k].start_s + free.legs[k].duration_s);
+    const Plan plan = plan_of(mission, kCoarse);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << k << ": " << plan.message;
+    EXPECT_NEAR(plan.energy.total_J(), free.energy.total_J(), 1e-9 * free.energy.total_J()) << k;
+    EXPECT_NEAR(plan.duration_s, free.duration_s, 1e-9 * free.duration_s) << k;
+  }
+}
+
 /// Between the fastest drive and the cheapest one.
 TEST(Ways, ADeadlineCostsNoMoreThanOnTheWaysWithoutIt) {
   MissionRequest mission = round_of_three();
