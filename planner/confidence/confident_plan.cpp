@@ -101,7 +101,7 @@ class ConfidentPlanner {
       const Margins kept_too_little = margins_;
       if (trial > 0) tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
       Plan plan = plan_with(margins_, options_);
-      if (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
+      while (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
       if (!is_driven(plan) && trial == 0)
         return as_verdict(with_slack(refused ? *std::move(refused) : std::move(plan)));
@@ -201,15 +201,16 @@ class ConfidentPlanner {
     return enough ? std::nullopt : refused;
   }
 
-  /// The margins of the fastest drive on these ways that keeps the confidence, for times near its own; false
-  /// where there is none.
+  /// The margins of the fastest drive on these ways that keeps the confidence, for times near its own: found
+  /// roughly at first, then as a plan of least time finds them. False where there is none.
   bool take_margins_of_fastest() {
-    if (std::exchange(tried_fastest_, true)) return false;
+    if (fastest_tried_ == 2) return false;
+    const bool roughly = fastest_tried_++ == 0;
     MissionRequest fastest = given_;
     fastest.objective = {.minimize = Objective::Minimize::time, .confidence = confidence_};
     for (LegRequest& leg : fastest.legs) leg.deadline_s.reset(), leg.duration_s.reset();
-    ConfidentPlanner planner(fastest, world_, quick(), plan_once_);
-    planner.aim_ = std::min(aim_ + kClose, 1.0);
+    ConfidentPlanner planner(fastest, world_, roughly ? quick() : options_, plan_once_);
+    if (roughly) planner.aim_ = std::min(aim_ + kClose, 1.0);
     planner.seed_ = seed_;
     planner.offers_ = false;
     if (!is_driven(planner.plan())) return false;
@@ -329,7 +330,8 @@ class ConfidentPlanner {
   MissionRequest given_{};  ///< the mission on the ways of `chosen_`
   Plan chosen_{};           ///< without margins
   bool has_fixed_ways_{};
-  bool tried_others_{}, tried_fastest_{};
+  bool tried_others_{};
+  int fastest_tried_{};
   bool offers_{true};
   Margins margins_{};
   ConfidenceAccount account_{};

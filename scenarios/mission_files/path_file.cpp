@@ -18,7 +18,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kFarPoints_m = 200.0;  ///< between neighbors of a path in a building or a yard
+constexpr double kFarPoints_m = 200.0;  ///< between neighbors of a path in a building or a yard, below this
 
 /// Of a tolerance that fits the spacing: a step of a grid is half a cell beside the line that it stands for.
 constexpr double kShareOfSpacing = 0.6;
@@ -120,7 +120,7 @@ void note_far_points(const std::vector<Pose>& points, std::vector<std::string>* 
   if (apart_m.size() < 2 || notes == nullptr) return;
   const auto middle = apart_m.begin() + static_cast<std::ptrdiff_t>(apart_m.size() / 2);
   std::ranges::nth_element(apart_m, middle);
-  if (*middle > kFarPoints_m)
+  if (*middle >= kFarPoints_m)
     notes->push_back("points of the path are " + four_digits(*middle) +
                      " m apart (median): are the coordinates in cm, or in mm?");
 }

@@ -266,7 +266,7 @@ TEST(Confidence, ALaterDeadlineIsNeverRefused) {
                        {"model_energy", 0.02}};
   const Plan fastest = planned_for(straight_and_bend(soonest(0.95)), robot);
   ASSERT_LE(fastest.status, SolveStatus::feasible) << fastest.message;
-  for (const double later : {1.001, 1.004, 1.008, 1.015, 1.03}) {
+  for (const double later : {1.0001, 1.0005, 1.001, 1.004, 1.008, 1.015, 1.03}) {
     const Objective objective{.deadline_s = later * fastest.duration_s, .confidence = 0.95};
     const Plan plan = planned_for(straight_and_bend(objective), robot);
     EXPECT_LE(plan.status, SolveStatus::feasible) << later << ": " << plan.message;
