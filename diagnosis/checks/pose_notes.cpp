@@ -73,7 +73,7 @@ std::array<Rates, 2> rates_of(const Run& run, const Geometry& geometry) {
   const Trajectory& log = run.log;
   const std::size_t n = log.size();
   const auto has = [n](const Samples& channel) { return n > 1 && channel.size() == n; };
-  const auto& [left, right] = log.wheel_speed_rad_s;
+  const Samples &left = log.wheel_speed_rad_s.left, &right = log.wheel_speed_rad_s.right;
   std::array<Rates, 2> rates;
   if (!has(left) || !has(right) || !has(log.heading_rad)) return rates;
   auto& [turning, driving] = rates;
