@@ -10,6 +10,7 @@
 #include "planner/accounts/battery_account.hpp"
 #include "planner/confidence/promises.hpp"
 #include "planner/legs/on_ways.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -51,11 +52,7 @@ void take_choices(Plan& plan, const Plan& chosen) {
 
 bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
-bool is_too_late(const Plan& plan) {
-  if (!plan.infeasibility) return false;
-  const std::string& constraint = plan.infeasibility->reason.constraint;
-  return constraint == "deadline" || constraint == "duration";
-}
+bool is_too_late(const Plan& plan) { return plan.infeasibility && is_late(plan.infeasibility->reason); }
 
 void set_limit(Robot& robot, const Limit& row, double value) {
   if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;

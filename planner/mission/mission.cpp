@@ -21,6 +21,7 @@
 #include "planner/mission/visit_order.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/holding_limit.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -288,12 +289,6 @@ namespace {
 
 bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
-bool is_late(const Plan& plan) {
-  if (!plan.infeasibility) return false;
-  const std::string& constraint = plan.infeasibility->reason.constraint;
-  return constraint == "deadline" || constraint == "duration";
-}
-
 bool minimizes_time(const MissionRequest& mission) {
   return mission.objective.minimize == Objective::Minimize::time;
 }
@@ -327,7 +322,8 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
     if (is_driven(other) ? !is_driven(best) || cost(other) < cost(best) : !is_driven(best))
       best = std::move(other);
   };
-  if (is_late(best) || !pays(best, mission, first_W)) or_better(plan_at({}));
+  if ((best.infeasibility && is_late(best.infeasibility->reason)) || !pays(best, mission, first_W))
+    or_better(plan_at({}));
   if (minimizes_time(mission) && world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3)) {
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;

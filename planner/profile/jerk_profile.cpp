@@ -13,6 +13,7 @@
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -249,9 +250,7 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
                     request.time.duration_s < fastest->duration_s() * (1 - kSameDuration);
   if (!bound.profile) {
     // A relaxation of the problem without the jerk limit does not apply to the one with it.
-    const bool by_time =
-        has_deadline(request) && bound.infeasibility &&
-        (bound.infeasibility->constraint == "deadline" || bound.infeasibility->constraint == "duration");
+    const bool by_time = has_deadline(request) && bound.infeasibility && is_late(*bound.infeasibility);
     if (by_time && soon) return too_soon(request, *fastest);
     return bound.infeasibility ? also_with_jerk(request, std::move(bound), by_time) : bound;
   }

@@ -14,6 +14,10 @@ std::string sentence(const Infeasibility& verdict) {
   return text.str();
 }
 
+bool is_late(const Infeasibility& verdict) {
+  return verdict.constraint == "deadline" || verdict.constraint == "duration";
+}
+
 std::string leg_text(std::size_t leg, const std::string& to) {
   return std::to_string(leg + 1) + (to.empty() ? "" : " (" + to + ")");
 }
