@@ -14,6 +14,7 @@
 #include "app/terminal.hpp"
 #include "model/progress.hpp"
 #include "planner/baselines/comparison.hpp"
+#include "planner/confidence/margins.hpp"
 #include "planner/legs/on_ways.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/mission/mission_time.hpp"
@@ -135,7 +136,7 @@ class FrontCommand : public Command {
     SureFront sure{.limit_shares = held.confidence->limit_shares,
                    .reserve_margin = held.confidence->reserve_margin};
     MissionWorld careful = world;
-    careful.robot.battery.reserve_fraction += sure.reserve_margin;
+    careful.robot = with_margins(std::move(careful.robot), sure.limit_shares, sure.reserve_margin);
     const Plan plan = plan_mission(mission, careful, with_limit_shares(options_.plan, sure.limit_shares));
     if (plan.status > SolveStatus::feasible) return {.reason = plan.message};
     sure.points =

@@ -14,8 +14,6 @@
 namespace joulepath {
 namespace {
 
-constexpr const char* kWindingTemperature = "winding_temperature";
-
 /// One winding along a leg.
 class Winding {
  public:
@@ -74,7 +72,9 @@ class Heating {
     const LegMotion motion(leg, here);
     for (Winding& winding : windings_) winding.begin_leg();
     time_s_ = leg.start_s;
-    const auto drive = [this](const EnergyNode& node) { visit(node); };
+    const auto drive = [&](const EnergyNode& node) {
+      visit(energy_node(here, node.instant, node.time_s, node.weight_s));
+    };
     for (std::size_t k = 0; k < leg.stretches.size(); ++k) {
       const Profile& profile = leg.stretches[k].profile;
       integrate_profile(motion.stretch(k), profile, 0.0, profile.duration_s(), drive);

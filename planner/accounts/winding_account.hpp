@@ -4,6 +4,8 @@
 
 namespace joulepath {
 
+inline constexpr const char* kWindingTemperature = "winding_temperature";  ///< a limit's name
+
 /// Temperature of both windings over a plan, from ambient at its start: one thermal node per motor, heated by
 /// the copper loss at the resistance that follows the temperature (rise_after_K()). Absent where the robot's
 /// motors state no `thermal`.

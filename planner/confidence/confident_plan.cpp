@@ -8,6 +8,7 @@
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/battery_account.hpp"
+#include "planner/accounts/winding_account.hpp"
 #include "planner/confidence/promises.hpp"
 #include "planner/legs/on_ways.hpp"
 #include "planner/values/verdict_text.hpp"
@@ -62,7 +63,7 @@ void set_limit(Robot& robot, const Limit& row, double value) {
 
 Margins between(const Margins& a, const Margins& b) {
   Margins middle;
-  for (std::size_t i = 0; i < kForceLimits; ++i) middle.share[i] = 0.5 * (a.share[i] + b.share[i]);
+  for (std::size_t i = 0; i < kUsedLimits; ++i) middle.share[i] = 0.5 * (a.share[i] + b.share[i]);
   middle.reserve = 0.5 * (a.reserve + b.reserve);
   return middle;
 }
@@ -100,8 +101,8 @@ class ConfidentPlanner {
       Plan plan = plan_with(margins_, options_);
       while (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
-      if (!is_driven(plan) && trial == 0)
-        return as_verdict(with_slack(refused ? *std::move(refused) : std::move(plan)));
+      if (!is_driven(plan) && !refused) refused = plan;
+      if (!is_driven(plan) && trial == 0) break;
       if (!is_driven(plan)) plan = plan_between(kept_too_little);
       if (!is_driven(plan)) break;
       if (has_fixed_ways_) take_choices(plan, chosen_);
@@ -110,7 +111,7 @@ class ConfidentPlanner {
       chosen_.confidence = account_;
       chosen_.confidence->promises = judge_.promises(plan, sample, margins_);
     }
-    return not_shown();
+    return refused ? as_verdict(with_slack(*std::move(refused))) : not_shown();
   }
 
  private:
@@ -126,7 +127,7 @@ class ConfidentPlanner {
   }
   Plan plan_with(const Margins& margins, const PlanOptions& options, const MissionRequest& mission) const {
     MissionWorld world = world_;
-    world.robot.battery.reserve_fraction += margins.reserve;
+    world.robot = with_margins(std::move(world.robot), margins.limit_shares(), margins.reserve);
     return plan_once_(mission, world, with_limit_shares(options, margins.limit_shares()));
   }
 
@@ -218,7 +219,7 @@ class ConfidentPlanner {
 
   /// What the model says of a plan whose margins were found by derivatives and are not enough.
   void tighten(const Margins& by_model) {
-    for (std::size_t i = 0; i < kForceLimits; ++i)
+    for (std::size_t i = 0; i < kUsedLimits; ++i)
       margins_.share[i] = std::min(margins_.share[i], by_model.share[i]);
     margins_.reserve = std::max(margins_.reserve, by_model.reserve);
   }
@@ -229,10 +230,11 @@ class ConfidentPlanner {
   }
 
   Plan with_account(Plan plan, const Sample& sample) {
-    // The account of the battery is that of its own reserve.
+    // The accounts of battery and windings are those of their own limits.
     if (margins_.reserve > 0 && plan.battery)
       plan.battery = battery_account(plan, uncertain(plant_), plan.battery->start_fraction,
                                      mission_.charging ? mission_.charging->to_fraction : 0.0);
+    if (plan.winding) plan.winding = winding_account(plan, plant_);
     account_.kept = sample.share();
     account_.kept_at_least = kept_at_least(sample.kept, draws_, kErrorOfOne);
     account_.limit_shares = margins_.limit_shares();
@@ -247,6 +249,7 @@ class ConfidentPlanner {
   void offer_whole_limits(Infeasibility& reason) const {
     constexpr std::array<double, 6> kMore{1, 1.02, 1.05, 1.1, 1.2, 1.4};
     for (const auto& [name, share] : margins_.limit_shares()) {
+      if (name == kWindingTemperature) continue;
       const Limit& row = *limit_named(name);
       if (reason.constraint == name) reason.amount /= share;
       const auto relaxed = reason.relaxation.find(std::string(row.key));

@@ -44,15 +44,15 @@ const std::vector<ForceDemands::Row>& ForceDemands::rows() {
   return all;
 }
 
-ForceDemands::ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant,
+ForceDemands::ForceDemands(const Plan& plan, const Robot& robot, const DrawnPlant& nominal,
                            const ErrorPlants& errors)
-    : plan_(plan), plant_(plant), linear_(rows().size()) {
+    : plan_(plan), linear_(rows().size()) {
   for (const LegPlan& leg : plan.legs)
     limits_.push_back(limits_between_payloads(robot, leg.payload.from_kg, leg.payload.to_kg));
   std::vector<std::vector<Place>> on_leg(plan.legs.size());
-  for (const Place& place : all_places()) on_leg[place.leg].push_back(place);
+  for (const Place& place : all_places(nominal.plant)) on_leg[place.leg].push_back(place);
   for (std::size_t leg = 0; leg < on_leg.size(); ++leg)
-    if (!on_leg[leg].empty()) linearize(leg, errors, on_leg[leg]);
+    if (!on_leg[leg].empty()) linearize(leg, nominal, errors, on_leg[leg]);
 }
 
 Limits ForceDemands::limits_on(std::size_t leg, const Plant& plant) const {
@@ -61,13 +61,13 @@ Limits ForceDemands::limits_on(std::size_t leg, const Plant& plant) const {
   return limits;
 }
 
-std::vector<ForceDemands::Place> ForceDemands::all_places() const {
+std::vector<ForceDemands::Place> ForceDemands::all_places(const Plant& plant) const {
   constexpr std::array<double, 3> kShares{1e-7, 0.5, 1 - 1e-7};  // of a segment's time
   std::vector<Place> places;
   std::size_t count = 0;
   for (std::size_t k = 0; k < plan_.legs.size(); ++k) {
     const LegPlan& leg = plan_.legs[k];
-    const LegMotion motion(leg, plant_);
+    const LegMotion motion(leg, plant);
     for (std::size_t i = 0; i < leg.stretches.size(); ++i, ++count) {
       const Profile& profile = leg.stretches[i].profile;
       const bool travels = !is_turn(leg.stretches[i].request.piece);
@@ -94,9 +94,9 @@ double ForceDemands::use_of(const Row& row, const LimitState& state, const Limit
   return most < kNoLimit ? limit_fraction(limit.value(state, row.side), most) : 0.0;
 }
 
-Eigen::MatrixXd ForceDemands::uses_by(const Plant& plant, std::size_t leg,
+Eigen::MatrixXd ForceDemands::uses_by(const DrawnPlant& plant, std::size_t leg,
                                       const std::vector<Place>& places) const {
-  const Plant here = plant_in(plant, plan_.legs[leg].state);
+  const Plant here = plant.on(plan_.legs[leg], leg);
   const Limits limits = limits_on(leg, here);
   Eigen::MatrixXd uses(rows().size(), places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -107,8 +107,9 @@ Eigen::MatrixXd ForceDemands::uses_by(const Plant& plant, std::size_t leg,
   return uses;
 }
 
-void ForceDemands::linearize(std::size_t leg, const ErrorPlants& errors, const std::vector<Place>& places) {
-  const Eigen::MatrixXd use = uses_by(plant_, leg, places);
+void ForceDemands::linearize(std::size_t leg, const DrawnPlant& nominal, const ErrorPlants& errors,
+                             const std::vector<Place>& places) {
+  const Eigen::MatrixXd use = uses_by(nominal, leg, places);
   std::vector<std::array<Eigen::MatrixXd, 2>> near, far;
   for (const auto& [more, less] : errors.near)
     near.push_back({uses_by(more, leg, places), uses_by(less, leg, places)});
@@ -211,11 +212,11 @@ void ForceDemands::append_greatest(const Linear& linear, const double* use,
   }
 }
 
-ForceUses ForceDemands::uses_at(const std::vector<std::size_t>& places, const Plant& plant) const {
+ForceUses ForceDemands::uses_at(const std::vector<std::size_t>& places, const DrawnPlant& plant) const {
   ForceUses uses{};
   for (std::size_t i = 0; i < places.size();) {
     const std::size_t leg = places_[places[i]].leg;
-    const Plant here = plant_in(plant, plan_.legs[leg].state);
+    const Plant here = plant.on(plan_.legs[leg], leg);
     const Limits limits = limits_on(leg, here);
     for (; i < places.size() && places_[places[i]].leg == leg; ++i) {
       const LimitState state = state_at(places_[places[i]], here);
@@ -228,7 +229,7 @@ ForceUses ForceDemands::uses_at(const std::vector<std::size_t>& places, const Pl
   return uses;
 }
 
-std::vector<ForceUses> ForceDemands::of(const std::vector<Plant>& plants,
+std::vector<ForceUses> ForceDemands::of(const std::vector<DrawnPlant>& plants,
                                         const Eigen::MatrixXd& errors) const {
   std::vector<std::vector<std::size_t>> places(plants.size());
   for (const Linear& linear : linear_) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "model/limit_table.hpp"
+#include "planner/confidence/plan_course.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/values/plan.hpp"
 
 namespace joulepath {
 
@@ -22,25 +22,13 @@ inline constexpr std::size_t kForceLimits = [] {
 /// Use of each of force_limits(): above 1 it saturates.
 using ForceUses = std::array<double, kForceLimits>;
 
-/// Pairs of plants with more and with less of each error of a draw.
-using ShiftedPlants = std::vector<std::array<Plant, 2>>;
-
-/// The errors of draws: what one sigma of each does, what the largest one does that is drawn (kReach sigmas),
-/// and a factor that makes errors out of independent standard normal numbers.
-struct ErrorPlants {
-  ShiftedPlants near{}, far{};
-  std::size_t one_sided{};  ///< of these pairs, the last ones: without an effect, and the nominal plant
-  Eigen::MatrixXd factor{};
-};
-inline constexpr double kReach = 6.0;  ///< sigmas of an error, or of a use, that no draw exceeds
-
 /// What a planned motion, tracked exactly, uses of the limits of motors, battery and tires, for other plants
 /// than the planned one. Looked at are both ends and the middle of every segment that the largest errors
-/// together may saturate, but for those below another one, whatever the errors are. Open-circuit voltages and
-/// winding resistances are those of the plan's legs. It keeps references to plan and plant.
+/// together may saturate, but for those below another one, whatever the errors are. It keeps a reference to
+/// the plan.
 class ForceDemands {
  public:
-  ForceDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ErrorPlants& errors);
+  ForceDemands(const Plan& plan, const Robot& robot, const DrawnPlant& nominal, const ErrorPlants& errors);
 
   /// Greatest uses by the nominal plant.
   const ForceUses& nominal() const { return nominal_; }
@@ -50,7 +38,7 @@ class ForceDemands {
 
   /// Greatest uses by plants, whose errors are the columns of `errors`: the model at the places where the
   /// derivatives find the greatest ones of each limit and side, on each stretch.
-  [[nodiscard]] std::vector<ForceUses> of(const std::vector<Plant>& plants,
+  [[nodiscard]] std::vector<ForceUses> of(const std::vector<DrawnPlant>& plants,
                                           const Eigen::MatrixXd& errors) const;
 
   /// The limits of a leg for a plant, the battery's own included.
@@ -81,14 +69,15 @@ class ForceDemands {
     Eigen::MatrixXd at(const Eigen::MatrixXd& errors) const { return (slope * errors).colwise() + use; }
   };
 
-  std::vector<Place> all_places() const;
+  std::vector<Place> all_places(const Plant& plant) const;
   static double use_of(const Row& row, const LimitState& state, const Limits& limits);
   static LimitState state_at(const Place& place, const Plant& plant) {
     return limit_state(plant, place.motion, place.site, place.speed_gain_m_s2, 0.0);
   }
   /// Uses of each row at a leg's places, by a plant.
-  Eigen::MatrixXd uses_by(const Plant& plant, std::size_t leg, const std::vector<Place>& places) const;
-  void linearize(std::size_t leg, const ErrorPlants& errors, const std::vector<Place>& places);
+  Eigen::MatrixXd uses_by(const DrawnPlant& plant, std::size_t leg, const std::vector<Place>& places) const;
+  void linearize(std::size_t leg, const DrawnPlant& nominal, const ErrorPlants& errors,
+                 const std::vector<Place>& places);
   /// What is known of the places of a leg and one row: uses by the nominal plant, their changes with one
   /// sigma of each error, and uses by the far plants, two columns for each error.
   struct Uses {
@@ -99,10 +88,9 @@ class ForceDemands {
                        const Eigen::MatrixXd& factor);
   /// The places of the greatest estimated uses on each stretch.
   static void append_greatest(const Linear& linear, const double* use, std::vector<std::size_t>& places);
-  ForceUses uses_at(const std::vector<std::size_t>& places, const Plant& plant) const;
+  ForceUses uses_at(const std::vector<std::size_t>& places, const DrawnPlant& plant) const;
 
   const Plan& plan_;
-  const Plant& plant_;
   std::vector<Limits> limits_{};  ///< of each leg
   std::vector<Place> places_{};
   std::vector<Linear> linear_{};  ///< of each row

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/accounts/winding_account.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -21,7 +23,7 @@ class RelativeDemands {
  public:
   RelativeDemands(const std::vector<PlanDemand>& drawn, const PlanDemand& nominal, double reserve_fraction)
       : drawn_(drawn), nominal_(nominal), reserve_(reserve_fraction) {
-    for (std::size_t i = 0; i < kForceLimits; ++i) {
+    for (std::size_t i = 0; i < kUsedLimits; ++i) {
       for (const PlanDemand& demand : drawn) growth_[i].push_back(growth(demand, i));
       std::sort(growth_[i].begin(), growth_[i].end());
     }
@@ -31,7 +33,7 @@ class RelativeDemands {
 
   Margins at(double quantile_share) const {
     Margins margins;
-    for (std::size_t i = 0; i < kForceLimits; ++i)
+    for (std::size_t i = 0; i < kUsedLimits; ++i)
       margins.share[i] = std::min(1.0, 1 / quantile(growth_[i], quantile_share));
     margins.reserve = std::max(0.0, quantile(drop_, quantile_share));
     return margins;
@@ -50,7 +52,7 @@ class RelativeDemands {
   }
 
   bool is_kept(const PlanDemand& demand, const Margins& margins) const {
-    for (std::size_t i = 0; i < kForceLimits; ++i) {
+    for (std::size_t i = 0; i < kUsedLimits; ++i) {
       const double use = nominal_.use[i] > 0 ? std::min(nominal_.use[i], margins.share[i]) : 1.0;
       if (growth(demand, i) * use > 1 + kRounding) return false;
     }
@@ -61,7 +63,7 @@ class RelativeDemands {
   const std::vector<PlanDemand>& drawn_;
   const PlanDemand& nominal_;
   double reserve_;
-  std::array<std::vector<double>, kForceLimits> growth_{};
+  std::array<std::vector<double>, kUsedLimits> growth_{};
   std::vector<double> drop_{};
 };
 
@@ -82,17 +84,32 @@ double upper_tail(std::size_t kept, std::size_t n, double p) {
 
 LimitShares Margins::limit_shares() const {
   LimitShares shares;
-  for (std::size_t i = 0; i < kForceLimits; ++i)
-    if (share[i] < 1) shares.emplace(force_limits()[i]->name, share[i]);
+  for (std::size_t i = 0; i < kUsedLimits; ++i)
+    if (share[i] < 1) shares.emplace(used_limit_name(i), share[i]);
   return shares;
+}
+
+Robot with_margins(Robot robot, const LimitShares& shares, double reserve) {
+  robot.battery.reserve_fraction += reserve;
+  const auto share = shares.find(kWindingTemperature);
+  for (const Side side : kSides) {
+    std::optional<WindingThermal>& thermal = robot.motor[side].thermal;
+    if (thermal && share != shares.end())
+      thermal->max_winding_C = std::lerp(thermal->ambient_C, thermal->max_winding_C, share->second);
+  }
+  return robot;
 }
 
 bool keeps_limit(const PlanDemand& demand, std::size_t i) { return demand.use[i] <= 1 + kRounding; }
 
-bool keeps_limits(const PlanDemand& demand) {
+bool keeps_forces(const PlanDemand& demand) {
   for (std::size_t i = 0; i < kForceLimits; ++i)
     if (!keeps_limit(demand, i)) return false;
   return true;
+}
+
+bool keeps_limits(const PlanDemand& demand) {
+  return keeps_forces(demand) && keeps_limit(demand, kWindingLimit);
 }
 
 bool keeps_reserve(const PlanDemand& demand, double reserve_fraction) {

@@ -9,15 +9,19 @@ namespace joulepath {
 
 /// What a plan leaves of its limits and of its battery, so that drawn plants keep them.
 struct Margins {
-  std::array<double, kForceLimits> share;  ///< of each of force_limits() that the plan may use, at most 1
-  double reserve{};                        ///< state of charge above the battery's reserve
+  std::array<double, kUsedLimits> share;  ///< of each of its limits that the plan may use, at most 1
+  double reserve{};                       ///< state of charge above the battery's reserve
   Margins() { share.fill(1.0); }
 
   [[nodiscard]] LimitShares limit_shares() const;
 };
 
-/// Whether a demand keeps all limits of forces, and the reserve.
+/// The robot whose own limits leave margins: of the windings' rise, as a share, and of the reserve.
+[[nodiscard]] Robot with_margins(Robot robot, const LimitShares& shares, double reserve);
+
+/// Whether a demand keeps its limits, those of forces alone, and the reserve.
 [[nodiscard]] bool keeps_limit(const PlanDemand& demand, std::size_t i);
+[[nodiscard]] bool keeps_forces(const PlanDemand& demand);
 [[nodiscard]] bool keeps_limits(const PlanDemand& demand);
 [[nodiscard]] bool keeps_reserve(const PlanDemand& demand, double reserve_fraction);
 

@@ -1,38 +1,34 @@
 #include "planner/confidence/plan_demands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/accounts/stretch_account.hpp"
+#include "planner/accounts/winding_account.hpp"
 
 namespace joulepath {
+
+std::string used_limit_name(std::size_t i) {
+  return i == kWindingLimit ? kWindingTemperature : std::string(force_limits()[i]->name);
+}
 
 PlanDemands::PlanDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ChargeStates& charge)
     : robot_(robot),
       plant_(plant),
-      charge_(charge),
-      energy_(plan, plant),
+      courses_(plan, plant, charge),
+      nominal_{plant, courses_.of(plant)},
       model_error_(std::ssize(nuisances_of(plant.robot))),
       model_friction_Nm_(model_friction_Nm(robot.model_energy_sigma().value_or(0.0))),
       errors_{shifted(1), shifted(kReach), uncertain_effects(robot).size(), error_factor(robot)},
-      forces_(plan, robot, plant, errors_) {
-  if (!std::isfinite(robot.battery.capacity_Wh)) return;
-  const auto fraction = [&](const Plant& other) { return energy_.least_fraction(other, charge_); };
-  fraction_ = fraction(plant);
-  fraction_per_sigma_.resize(std::ssize(errors_.near));
-  fall_per_sigma_.resize(std::ssize(errors_.near), 2);
-  for (std::size_t i = 0; i < errors_.near.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    std::array<double, 2> near{};
-    for (const std::size_t side : {0, 1}) {
-      near[side] = fraction(errors_.near[i][side]);
-      const double far = fraction(errors_.far[i][side]);
-      fall_per_sigma_(row, static_cast<Eigen::Index>(side)) =
-          std::max({0.0, fraction_ - near[side], (fraction_ - far) / kReach});
-    }
-    fraction_per_sigma_[row] = 0.5 * (near[0] - near[1]);
-  }
+      forces_(plan, robot, nominal_, errors_),
+      course_(nominal_.course, errors_, charge.start_fraction, !robot.battery.open_circuit_curve.empty()) {}
+
+PlanDemand PlanDemands::demand(const ForceUses& forces, const PlanCourse& course) {
+  PlanDemand demand{.least_fraction = course.least_fraction};
+  std::copy(forces.begin(), forces.end(), demand.use.begin());
+  demand.use[kWindingLimit] = course.winding_use;
+  return demand;
 }
 
 double PlanDemands::model_friction_Nm(double sigma) const {
@@ -42,7 +38,7 @@ double PlanDemands::model_friction_Nm(double sigma) const {
   const double step_Nm = kShare * std::max({left.friction_torque_Nm, right.friction_torque_Nm, kSmall_Nm});
   Plant rougher = plant_;
   for (const Side side : kSides) rougher.robot.motor[side].friction_torque_Nm += step_Nm;
-  const double motion_J = energy_.motion_J(plant_), more_J = energy_.motion_J(rougher) - motion_J;
+  const double motion_J = courses_.motion_J(plant_), more_J = courses_.motion_J(rougher) - motion_J;
   return more_J > 0 ? step_Nm * sigma * std::abs(motion_J) / more_J : 0.0;
 }
 
@@ -57,43 +53,41 @@ Plant PlanDemands::with_model_error(Plant plant, double sigmas) const {
 
 ShiftedPlants PlanDemands::shifted(double sigmas) const {
   ShiftedPlants plants;
+  const auto add = [&](Plant more, Plant less) {
+    plants.push_back({DrawnPlant{std::move(more)}, DrawnPlant{std::move(less)}});
+    for (DrawnPlant& drawn : plants.back()) drawn.course = courses_.of(drawn.plant);
+  };
   for (const Nuisance& nuisance : nuisances_of(plant_.robot)) {
     const double more = sigmas * nuisance.sigma;
-    plants.push_back(
-        {with_error(plant_, nuisance, more), with_error(plant_, nuisance, std::max(-more, kLeastShare - 1))});
+    add(with_error(plant_, nuisance, more), with_error(plant_, nuisance, std::max(-more, kLeastShare - 1)));
   }
-  plants.push_back({with_model_error(plant_, sigmas), with_model_error(plant_, -sigmas)});
-  for (const std::size_t effect : uncertain_effects(robot_))
-    plants.push_back({plant_without(robot_, {effect}), plant_});
+  add(with_model_error(plant_, sigmas), with_model_error(plant_, -sigmas));
+  for (const std::size_t effect : uncertain_effects(robot_)) add(plant_without(robot_, {effect}), plant_);
   return plants;
 }
 
-double PlanDemands::estimated_fraction(const Eigen::VectorXd& errors) const {
-  return fraction_per_sigma_.size() > 0 ? fraction_ + fraction_per_sigma_.dot(errors) : fraction_;
+DrawnPlant PlanDemands::plant_of(const PlantDraw& draw) const {
+  return {with_model_error(draw.plant, draw.errors[model_error_]), course_.at(draw.errors).front()};
 }
 
 std::vector<PlanDemand> PlanDemands::estimate(const Eigen::MatrixXd& errors) const {
+  const std::vector<PlanCourse> courses = course_.at(errors);
   std::vector<PlanDemand> demands;
   for (const ForceUses& use : forces_.estimate(errors))
-    demands.push_back({use, estimated_fraction(errors.col(std::ssize(demands)))});
+    demands.push_back(demand(use, courses[demands.size()]));
   return demands;
 }
 
 std::vector<PlanDemand> PlanDemands::of(const Eigen::MatrixXd& errors, const PlantDraws& draws) const {
-  constexpr double kTogether = 1.5;  // of the falls by one error each: errors act together
-  std::vector<Plant> plants;
-  for (const auto& column : errors.colwise()) plants.push_back(plant_of(draws.draw_of(column)));
-  std::vector<PlanDemand> demands;
-  for (const ForceUses& use : forces_.of(plants, errors)) {
-    const Plant& plant = plants[demands.size()];
-    const Eigen::VectorXd of_draw = errors.col(std::ssize(demands));
-    PlanDemand& demand = demands.emplace_back(PlanDemand{use, estimated_fraction(of_draw)});
-    if (fraction_per_sigma_.size() == 0) continue;
-    const double fall =
-        fall_per_sigma_.col(0).dot(of_draw.cwiseMax(0.0)) - fall_per_sigma_.col(1).dot(of_draw.cwiseMin(0.0));
-    if (!(fraction_ - kTogether * fall >= robot_.battery.reserve_fraction))
-      demand.least_fraction = energy_.least_fraction(plant, charge_);
+  std::vector<DrawnPlant> plants;
+  for (const auto& column : errors.colwise()) {
+    DrawnPlant& drawn = plants.emplace_back(plant_of(draws.draw_of(column)));
+    if (courses_.are_followed() && course_.is_in_doubt(robot_.battery.reserve_fraction, column, drawn.course))
+      drawn.course = courses_.of(drawn.plant);
   }
+  std::vector<PlanDemand> demands;
+  for (const ForceUses& use : forces_.of(plants, errors))
+    demands.push_back(demand(use, plants[demands.size()].course));
   return demands;
 }
 

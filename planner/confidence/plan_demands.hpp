@@ -1,17 +1,24 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
+#include "planner/confidence/course_estimate.hpp"
 #include "planner/confidence/force_demands.hpp"
-#include "planner/confidence/plan_energy.hpp"
 #include "planner/confidence/plant_draws.hpp"
 
 namespace joulepath {
 
+/// Limits of a plan whose use depends on the plant: force_limits(), and the windings' temperatures.
+inline constexpr std::size_t kUsedLimits = kForceLimits + 1;
+inline constexpr std::size_t kWindingLimit = kForceLimits;
+[[nodiscard]] std::string used_limit_name(std::size_t i);
+
 /// What the motion of a plan takes from a plant.
 struct PlanDemand {
-  ForceUses use{};
-  double least_fraction{1.0};  ///< state of charge
+  std::array<double, kUsedLimits> use{};  ///< above 1 a limit saturates, or a winding is too hot
+  double least_fraction{1.0};             ///< state of charge
 };
 
 /// Evaluates the planned motion, tracked exactly, for drawn plants. The model's own error, `model_energy`,
@@ -21,19 +28,17 @@ class PlanDemands {
  public:
   PlanDemands(const Plan& plan, const Robot& robot, const Plant& plant, const ChargeStates& charge);
 
-  [[nodiscard]] PlanDemand nominal() const { return {forces_.nominal(), fraction_}; }
+  [[nodiscard]] PlanDemand nominal() const { return demand(forces_.nominal(), nominal_.course); }
 
   /// By derivatives, for each column of errors (PlantDraw).
   [[nodiscard]] std::vector<PlanDemand> estimate(const Eigen::MatrixXd& errors) const;
 
-  /// By the model, for the plants of such columns; the state of charge by derivatives where they leave no
-  /// doubt that the reserve is kept.
+  /// By the model, for the plants of such columns; charge and heat by derivatives where they leave no doubt
+  /// that reserve and windings are kept.
   [[nodiscard]] std::vector<PlanDemand> of(const Eigen::MatrixXd& errors, const PlantDraws& draws) const;
 
-  /// The plant of a draw, the model's own error included.
-  [[nodiscard]] Plant plant_of(const PlantDraw& draw) const {
-    return with_model_error(draw.plant, draw.errors[model_error_]);
-  }
+  /// The plant of a draw, the model's own error included, with its course by derivatives.
+  [[nodiscard]] DrawnPlant plant_of(const PlantDraw& draw) const;
   [[nodiscard]] Limits limits_on(std::size_t leg, const Plant& plant) const {
     return forces_.limits_on(leg, plant);
   }
@@ -44,21 +49,17 @@ class PlanDemands {
   Plant with_model_error(Plant plant, double sigmas) const;
   /// Each error of so many sigmas more and less; of an effect that may be absent: without it, and with it.
   ShiftedPlants shifted(double sigmas) const;
-  double estimated_fraction(const Eigen::VectorXd& errors) const;
+  static PlanDemand demand(const ForceUses& forces, const PlanCourse& course);
 
   const Robot& robot_;
   const Plant& plant_;
-  ChargeStates charge_;
-  PlanEnergy energy_;
+  PlanCourses courses_;
+  DrawnPlant nominal_;
   Eigen::Index model_error_{};  ///< place of the model's own error
   double model_friction_Nm_{};  ///< of one sigma of the model's own error
   ErrorPlants errors_;
   ForceDemands forces_;
-  double fraction_{1.0};                  ///< the nominal plant's least state of charge
-  Eigen::VectorXd fraction_per_sigma_{};  ///< none where the battery has no capacity
-  /// By how much the state of charge falls at most, for one sigma more and less of each error (a row each):
-  /// by derivatives, or by the largest error that is drawn.
-  Eigen::MatrixX2d fall_per_sigma_{};
+  CourseEstimate course_;
 };
 
 }  // namespace joulepath

@@ -62,12 +62,12 @@ bool PromiseJudge::has_deadline(const Plan& plan) const {
 bool PromiseJudge::arrives(const Plan& plan, const PlanDemands& demands, const PlantDraw& draw) const {
   constexpr double kRounding_s = 1e-3;
   const std::vector<LegRequest>& legs = legs_of(plan);
-  const Plant drawn = demands.plant_of(draw);
+  const DrawnPlant drawn = demands.plant_of(draw);
   double late_s = 0;
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const LegPlan& leg = plan.legs[k];
     if (leg.prescribed) return false;
-    const Plant plant = plant_in(drawn, leg.state);
+    const Plant plant = drawn.on(leg, k);
     const Limits limits = demands.limits_on(k, plant);
     for (const StretchPlan& stretch : leg.stretches)
       late_s = std::max(0.0, late_s + lateness_s(stretch, plant, limits) - stretch.profile.wait_s);
@@ -85,14 +85,14 @@ double PromiseJudge::arrival_share(const Plan& plan, const Sample& sample) const
   std::size_t late = 0;
   for (const PlanDemand& demand : sample.drawn) {
     const PlantDraw draw = draws.next();
-    if (!keeps_limits(demand) && !arrives(plan, demands, draw)) ++late;
+    if (!keeps_forces(demand) && !arrives(plan, demands, draw)) ++late;
   }
   return 1 - static_cast<double>(late) / static_cast<double>(draws_);
 }
 
 std::vector<Promise> PromiseJudge::promises(const Plan& plan, const Sample& sample,
                                             const Margins& margins) const {
-  constexpr double kUsedUp = 1e-4;
+  constexpr double kUsedUp = 1e-4, kHeatUsedUp = 0.02;  // the price of heat is not found exactly
   const double reserve = robot_.battery.reserve_fraction;
   const auto share = [&](const auto& keeps) {
     return static_cast<double>(std::count_if(sample.drawn.begin(), sample.drawn.end(), keeps)) /
@@ -104,11 +104,12 @@ std::vector<Promise> PromiseJudge::promises(const Plan& plan, const Sample& samp
     promises.push_back(
         {"reserve", share([&](const PlanDemand& demand) { return keeps_reserve(demand, reserve); }),
          margins.reserve > 0 && sample.nominal.least_fraction < reserve + margins.reserve + kUsedUp});
-  for (std::size_t i = 0; i < kForceLimits; ++i)
+  for (std::size_t i = 0; i < kUsedLimits; ++i)
     if (sample.nominal.use[i] > 0)
-      promises.push_back({std::string(force_limits()[i]->name),
-                          share([&](const PlanDemand& demand) { return keeps_limit(demand, i); }),
-                          margins.share[i] < 1 && sample.nominal.use[i] > margins.share[i] - kUsedUp});
+      promises.push_back(
+          {used_limit_name(i), share([&](const PlanDemand& demand) { return keeps_limit(demand, i); }),
+           margins.share[i] < 1 &&
+               sample.nominal.use[i] > margins.share[i] - (i == kWindingLimit ? kHeatUsedUp : kUsedUp)});
   return promises;
 }
 

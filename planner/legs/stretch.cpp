@@ -48,7 +48,9 @@ void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_li
 
 void leave_margins(ProfileRequest& request, const LimitShares& shares) {
   for (const auto& [name, share] : shares) {
-    const Limit& row = *limit_named(name);
+    const Limit* named = limit_named(name);
+    if (named == nullptr) continue;  // the windings' temperatures, which no profile knows
+    const Limit& row = *named;
     if (row.field != nullptr) request.limits.*row.field *= share;
     for (const Side side : kSides)
       if (row.field == nullptr) request.plant.robot.motor[side].*row.rating *= share;

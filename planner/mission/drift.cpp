@@ -178,21 +178,37 @@ void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
   plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
 }
 
-/// The least price of heat, to kClose, or any price, with which a mission keeps its temperatures; nothing
-/// where no price that was tried does.
-std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, bool any_price) {
-  constexpr double kLeastPrice = 0.02, kMostPrice = 45, kFactor = 9, kClose = 1.5;
+/// How far (K) a plan's windings are above their limit; nothing where it is refused for another reason.
+std::optional<double> above_limit_K(const Plan& plan) {
+  if (plan.winding && (drives_within_limits(plan) || is_too_hot(plan))) return plan.winding->above_limit_K;
+  return std::nullopt;
+}
+
+/// A price between two, of which the first is too low: where a line through both temperatures over the
+/// logarithms of the prices meets the limit, but not close to an end.
+double price_between(double bad, std::optional<double> bad_K, double good, std::optional<double> good_K) {
+  constexpr double kFromEnd = 0.1;
+  const double share = bad_K && good_K && *bad_K > *good_K ? *bad_K / (*bad_K - *good_K) : 0.5;
+  return bad * std::pow(good / bad, std::clamp(share, kFromEnd, 1 - kFromEnd));
+}
+
+/// The least price of heat, to kClose or to kClose_K of the limit, or any price, with which a mission keeps
+/// its temperatures; nothing where no price that was tried does.
+std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, const Plan& hot, bool any_price) {
+  constexpr double kLeastPrice = 0.02, kMostPrice = 45, kFactor = 9, kClose = 1.05, kClose_K = 0.1;
   double good = kMostPrice, bad = kLeastPrice;
   Plan cool = at(good);
   for (; !drives_within_limits(cool); cool = at(good))
     if (is_too_hot(cool) || (good /= kFactor) < kLeastPrice) return std::nullopt;
-  while (!any_price && good > kClose * bad) {
-    const double middle = std::sqrt(bad * good);
+  std::optional<double> bad_K = above_limit_K(hot), good_K = above_limit_K(cool);
+  while (!any_price && good > kClose * bad && !(good_K && *good_K > -kClose_K)) {
+    const double middle = price_between(bad, bad_K, good, good_K);
     Plan between = at(middle);
+    const std::optional<double> between_K = above_limit_K(between);
     if (drives_within_limits(between))
-      good = middle, cool = std::move(between);
+      good = middle, good_K = between_K, cool = std::move(between);
     else
-      bad = middle;
+      bad = middle, bad_K = between_K;
   }
   return cool;
 }
@@ -210,7 +226,7 @@ Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanO
       warm = std::move(priced.states);
       return std::move(priced.plan);
     };
-    if (std::optional<Plan> cool = cool_plan(at, options.any_price_of_heat)) plan = std::move(*cool);
+    if (std::optional<Plan> cool = cool_plan(at, plan, options.any_price_of_heat)) plan = std::move(*cool);
   }
   bound_by(plan, settled.easiest, options.accuracy);
   return plan;
