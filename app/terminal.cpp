@@ -80,6 +80,7 @@ std::string figure(double value, int digits) {
 }
 
 std::string folded(const std::string& text, std::size_t indent) {
+  indent = std::min(indent, kTerminalColumns / 2);
   std::string out;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t end = std::min(text.find('\n', from), text.size());

@@ -49,9 +49,7 @@ class BatchCommand : public Command {
 
   int run() override {
     const JobRun run = job_run(options_, text().name, sources_, "missions");
-    std::vector<MissionItem> items;
-    for (const std::string& source : sources_)
-      std::ranges::move(mission_items(source), std::back_inserter(items));
+    std::vector<MissionItem> items = mission_items(sources_);
     OutputDirectory out = job_output(options_, run, kBatchFiles);
     plan_.solver = SolverChoice::fast;
     MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache,

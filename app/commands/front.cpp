@@ -14,6 +14,7 @@
 #include "app/terminal.hpp"
 #include "model/progress.hpp"
 #include "planner/baselines/comparison.hpp"
+#include "planner/confidence/confident_plan.hpp"
 #include "planner/confidence/margins.hpp"
 #include "planner/legs/on_ways.hpp"
 #include "planner/mission/mission.hpp"
@@ -122,8 +123,8 @@ class FrontCommand : public Command {
     LimitShares limit_shares{};
     double reserve_margin{};
     std::vector<FrontPoint> points{};
-    std::map<std::size_t, ConfidenceAccount> judged{};  ///< by the index of the point
-    std::string reason{};                               ///< reason why there is none
+    std::map<std::size_t, KeptShare> judged{};  ///< by the index of the point
+    std::string reason{};                       ///< reason why there is none
   };
 
   SureFront sure_front(const MissionRequest& mission, const MissionWorld& world, bool open) const {
@@ -143,24 +144,24 @@ class FrontCommand : public Command {
         energy_time_front(planned_stretches(plan), points_, open ? planned_price_W(plan) : 0.0).points;
     for (FrontPoint& point : sure.points) point = sum_of(point, rest_of(plan));
     for (const std::size_t k : chosen(sure.points.size(), kJudged))
-      if (auto account = judged(plan, mission, world, sure, sure.points[k].duration_s))
-        sure.judged[k] = *std::move(account);
+      if (auto account = judged(plan, mission, world, careful, sure, sure.points[k].duration_s))
+        sure.judged[k] = *account;
     return sure;
   }
 
   /// What draws of the robot say of a sure front's plan in a time; none where it cannot be driven with the
   /// front's margins, as with stops at chargers.
-  std::optional<ConfidenceAccount> judged(const Plan& plan, const MissionRequest& mission,
-                                          const MissionWorld& world, const SureFront& sure,
-                                          double duration_s) const {
+  std::optional<KeptShare> judged(const Plan& plan, const MissionRequest& mission, const MissionWorld& world,
+                                  const MissionWorld& careful, const SureFront& sure,
+                                  double duration_s) const {
     constexpr double kSameTime = 1e-6;
     MissionRequest timed = on_ways_of(plan, mission);
     timed.objective.deadline_s = duration_s * (1 + kSameTime);
-    timed.objective.confidence = confidence_;
     PlanOptions alone = with_limit_shares(options_.plan, sure.limit_shares);
     alone.baselines = alone.path_bound = false;
-    const Plan driven = plan_mission(timed, world, alone);
-    return driven.status <= SolveStatus::feasible ? driven.confidence : std::nullopt;
+    const Plan driven = plan_mission(timed, careful, alone);
+    if (driven.status > SolveStatus::feasible) return std::nullopt;
+    return kept_share(driven, timed, world.robot, *confidence_);
   }
 
   /// The classic profiles compared with one point of the front.

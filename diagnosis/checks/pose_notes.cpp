@@ -27,44 +27,71 @@ Samples second_differences(const Samples& values) {
   return differences;
 }
 
-/// Of a[i] with b[i + lag], about zero.
-double correlation(const Samples& a, const Samples& b, std::size_t lag = 0) {
-  double aa = 0, bb = 0, ab = 0;
-  for (std::size_t i = 0; i + lag < std::min(a.size(), b.size()); ++i)
-    aa += a[i] * a[i], bb += b[i + lag] * b[i + lag], ab += a[i] * b[i + lag];
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
-}
+/// Sums of products of a[i] and b[i + lag].
+struct Products {
+  Products(const Samples& a, const Samples& b, std::size_t lag = 0) {
+    for (std::size_t i = 0; i + lag < std::min(a.size(), b.size()); ++i, ++count)
+      aa += a[i] * a[i], bb += b[i + lag] * b[i + lag], ab += a[i] * b[i + lag];
+  }
+
+  double correlation() const { return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0; }
+  /// Of b by a, and its relative standard error.
+  double slope() const { return ab / aa; }
+  double slope_error() const {
+    const double r2 = correlation() * correlation();
+    return std::sqrt(std::max(0.0, 1 - r2) / (r2 * static_cast<double>(count)));
+  }
+
+  double aa{}, bb{}, ab{};
+  std::size_t count{};
+};
 
 /// A rate by the wheels at the samples, and the pose's mean rate over each step between them.
 struct Rates {
   Samples wheels{}, pose{};
-  double apart{}, farthest_apart{};  ///< of what the pose's rate and the wheels' add up to
-  double driven{}, longest_step{};   ///< by the wheels, in either direction
+  Samples wheel_steps{}, pose_steps{};  ///< rates times time
 
   void add_step(double before, double after, double change, double step_s) {
     wheels.push_back(after);
     pose.push_back(change / step_s);
-    apart += change - 0.5 * (before + after) * step_s;
-    farthest_apart = std::max(farthest_apart, std::abs(apart));
-    const double step = 0.5 * (std::abs(before) + std::abs(after)) * step_s;
-    driven += step;
-    longest_step = std::max(longest_step, step);
+    wheel_steps.push_back(0.5 * (before + after) * step_s);
+    pose_steps.push_back(change);
   }
 
-  /// Whether no more than where in a step the rate was taken tells pose and wheels apart.
-  bool share_way() const { return farthest_apart <= kSameWay * driven + longest_step; }
+  /// Whether the pose goes the way of wheels of another size: no more than where in a step the rate was
+  /// taken, and the doubt of that size, tells them apart, nor how large the wheels are by the way.
+  bool share_way(double size, double doubt) const {
+    double apart = 0, farthest_apart = 0, driven = 0, longest_step = 0, farthest = 0;
+    Samples by_wheels{0.0}, by_pose{0.0};
+    for (std::size_t i = 0; i < pose_steps.size(); ++i) {
+      by_wheels.push_back(by_wheels.back() + wheel_steps[i]);
+      by_pose.push_back(by_pose.back() + pose_steps[i]);
+      farthest = std::max(farthest, std::abs(by_wheels.back()));
+      apart += pose_steps[i] - size * wheel_steps[i];
+      farthest_apart = std::max(farthest_apart, std::abs(apart));
+      driven += std::abs(wheel_steps[i]);
+      longest_step = std::max(longest_step, std::abs(wheel_steps[i]));
+    }
+    const double of_way = Products(by_wheels, by_pose).slope(), same = kSameWay + doubt;
+    return farthest_apart <= same * driven + longest_step &&
+           std::abs(of_way - size) * farthest <= same * farthest + longest_step;
+  }
 
   /// Whether the noise of the wheels is that of the pose, which was summed up from their rate at the end, at
-  /// the start or in the middle of each step.
+  /// the start or in the middle of each step, with whatever radius and track.
   bool share_noise() const {
-    if (pose.size() < kLeastSteps || !share_way()) return false;
+    if (pose.size() < kLeastSteps) return false;
     const Samples of_pose = second_differences(pose), all = second_differences(wheels);
-    if (correlation(all, all, 1) > kMostlyNoise) return false;
+    if (Products(all, all, 1).correlation() > kMostlyNoise) return false;
     Samples starts(all.begin(), all.end() - 1), ends(all.begin() + 1, all.end());
     Samples middles(starts.size());
     std::ranges::transform(starts, ends, middles.begin(), [](double a, double b) { return 0.5 * (a + b); });
-    return std::ranges::any_of(std::to_array({&starts, &middles, &ends}),
-                               [&](Samples* noise) { return correlation(*noise, of_pose) > kSameNoise; });
+    return std::ranges::any_of(std::to_array({&starts, &middles, &ends}), [&](Samples* noise) {
+      constexpr double kErrors = 3;
+      const Products products(*noise, of_pose);
+      return products.correlation() > kSameNoise &&
+             share_way(products.slope(), kErrors * products.slope_error());
+    });
   }
 };
 

@@ -55,6 +55,15 @@ bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; 
 
 bool is_too_late(const Plan& plan) { return plan.infeasibility && is_late(plan.infeasibility->reason); }
 
+/// The verdict on a mission that cannot be planned whatever is asked for.
+Plan without_confidence(Plan plain) {
+  if (plain.infeasibility) {
+    plain.infeasibility->reason.message += "; this is without the confidence that is asked for";
+    plain.message = plain.infeasibility->reason.message;
+  }
+  return plain;
+}
+
 void set_limit(Robot& robot, const Limit& row, double value) {
   if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
   for (const Side side : kSides)
@@ -278,14 +287,6 @@ class ConfidentPlanner {
     return is_driven(slack) ? refused : slack;
   }
 
-  static Plan without_confidence(Plan plain) {
-    if (plain.infeasibility) {
-      plain.infeasibility->reason.message += "; this is without the confidence that is asked for";
-      plain.message = plain.infeasibility->reason.message;
-    }
-    return plain;
-  }
-
   /// A plan that leaves the margins of its promises is not possible: so says its verdict.
   Plan as_verdict(Plan refused) const {
     if (refused.infeasibility) {
@@ -348,16 +349,25 @@ void need_uncertainty(const MissionRequest& mission, const Robot& robot) {
                      "calibrate and diagnose measure them"});
 }
 
+KeptShare kept_share(const Plan& plan, const MissionRequest& mission, const Robot& robot, double confidence) {
+  const std::size_t draws = draws_for(confidence);
+  const Plant plant = make_plant(robot);
+  const Sample sample = PromiseJudge(mission, robot, plant, draws).judged(plan, 1);
+  return {sample.share(), kept_at_least(sample.kept, draws)};
+}
+
 Plan confident_plan(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                     const PlanOnce& plan_once) {
   need_uncertainty(mission, world.robot);
   const double unknown = *world.robot.model_energy_sigma();
   if (unknown > kMostUnknown) {
     Plan plan = plan_once(mission, world, options);
+    if (!is_driven(plan)) return without_confidence(std::move(plan));
     plan.status = SolveStatus::failed;
     plan.message = "cannot promise " + percent(*mission.objective.confidence) + ": the model misses " +
-                   percent(unknown) + " of the energy of motion (uncertainty.model_energy), above " +
-                   percent(kMostUnknown) + "; `joulepath diagnose` names what it lacks";
+                   percent(unknown) + " of the energy of motion (" + printable(mission.robot_file) +
+                   ": uncertainty.model_energy), above " + percent(kMostUnknown) +
+                   "; `joulepath diagnose` names what it lacks";
     return plan;
   }
   return ConfidentPlanner(mission, world, options, plan_once).plan();

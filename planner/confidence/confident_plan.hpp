@@ -15,6 +15,15 @@ using PlanOnce = std::function<Plan(const MissionRequest&, const MissionWorld&, 
 /// `model_energy` in it.
 void need_uncertainty(const MissionRequest& mission, const Robot& robot);
 
+/// The share of drawn robots that keep all promises of a plan, with its one-sided 95 % lower bound
+/// (Clopper-Pearson). `mission`: its start and chargers.
+struct KeptShare {
+  double kept{};
+  double kept_at_least{};
+};
+[[nodiscard]] KeptShare kept_share(const Plan& plan, const MissionRequest& mission, const Robot& robot,
+                                   double confidence);
+
 /// A plan that keeps its deadlines, the battery's reserve and the limits of motors, battery and tires
 /// together with the mission's confidence, for robots drawn from the file's `uncertainty:`. Where the plan
 /// without margins does not keep them, its ways are driven again with margins: the joint quantile of the

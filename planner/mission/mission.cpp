@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 
 #include "model/assert.hpp"
@@ -302,35 +303,66 @@ bool pays(const Plan& plan, const MissionRequest& mission, double way_price_W) {
   return !moved(std::vector<double>(price_W.size(), way_price_W), price_W);
 }
 
+/// The best of several plans of one mission. A trial that the mission's keys refuse does not count beside
+/// one that is planned.
+class BestPlan {
+ public:
+  explicit BestPlan(const Objective& objective) : floor_W_(lowest_price_W(objective)) {}
+
+  template <class PlanIt>
+  void take(PlanIt&& plan_it) {
+    try {
+      Plan other = plan_it();
+      if (!best_ ||
+          (is_driven(other) ? !is_driven(*best_) || cost(other) < cost(*best_) : !is_driven(*best_)))
+        best_ = std::move(other);
+    } catch (const ConfigError&) {
+      if (!refused_) refused_ = std::current_exception();
+    }
+  }
+
+  const std::optional<Plan>& best() const { return best_; }
+  bool is_late() const {
+    return best_ && best_->infeasibility && joulepath::is_late(best_->infeasibility->reason);
+  }
+
+  Plan plan() && {
+    if (!best_) std::rethrow_exception(refused_);
+    return *std::move(best_);
+  }
+
+ private:
+  double cost(const Plan& plan) const {
+    return std::isinf(floor_W_) ? plan.duration_s : plan.energy.total_J() + floor_W_ * plan.duration_s;
+  }
+
+  double floor_W_;
+  std::optional<Plan> best_{};
+  std::exception_ptr refused_{};
+};
+
 /// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
 /// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
-/// the better plan is returned; under a jerk limit, which drafts of ways leave out, the least time is that on
-/// the ways of least energy, too.
+/// the better plan is returned; under a jerk limit, which drafts of ways leave out, the least time, and a
+/// time that is hard to keep, are tried on the ways of least energy, too.
 Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                        const RouteSpace* space, const Plant& plant, const Plan& known) {
-  const auto plan_at = [&](std::optional<double> way_price_W) {
-    return plan_given_legs(mission, world, options, space, plant, known, way_price_W);
+  BestPlan trials(mission.objective);
+  const auto take = [&](std::optional<double> way_price_W) {
+    trials.take([&] { return plan_given_legs(mission, world, options, space, plant, known, way_price_W); });
   };
   const double first_W = first_price_W(mission, world, plant);
-  Plan best = plan_at(first_W);
-  if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches)) return best;
-  const double floor_W = lowest_price_W(mission.objective);
-  const auto cost = [&](const Plan& plan) {
-    return std::isinf(floor_W) ? plan.duration_s : plan.energy.total_J() + floor_W * plan.duration_s;
-  };
-  const auto or_better = [&](Plan other) {
-    if (is_driven(other) ? !is_driven(best) || cost(other) < cost(best) : !is_driven(best))
-      best = std::move(other);
-  };
-  if ((best.infeasibility && is_late(best.infeasibility->reason)) || !pays(best, mission, first_W))
-    or_better(plan_at({}));
-  if (minimizes_time(mission) && world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3)) {
+  take(first_W);
+  if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches))
+    return std::move(trials).plan();
+  if (!trials.best() || trials.is_late() || !pays(*trials.best(), mission, first_W)) take({});
+  const bool limits_jerk = world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3);
+  if (limits_jerk && (minimizes_time(mission) || trials.is_late())) {
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;
-    Plan other = plan_at(first_price_W(cheapest, world, plant));
-    if (is_driven(other)) or_better(std::move(other));
+    take(first_price_W(cheapest, world, plant));
   }
-  return best;
+  return std::move(trials).plan();
 }
 
 /// Plans legs that are given, with ways that keep a leg's own duration, and with stops at chargers.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 #include "model/printable.hpp"
@@ -52,6 +54,23 @@ std::vector<MissionItem> mission_items(const std::string& source, const NamedBy&
   if (items.empty())
     throw named_by.error(source, "no missions", "a directory with *.yaml missions, or a file of JSON lines");
   return items;
+}
+
+std::vector<MissionItem> mission_items(const std::vector<std::string>& sources) {
+  std::vector<MissionItem> all;
+  std::map<std::string, int> uses;
+  for (const std::string& source : sources) {
+    std::vector<MissionItem> items = mission_items(source);
+    for (const MissionItem& item : items) ++uses[item.name];
+    std::ranges::move(items, std::back_inserter(all));
+  }
+  for (MissionItem& item : all) {
+    if (uses[item.name] < 2) continue;
+    const std::filesystem::path file(item.file);
+    item.name =
+        printable((file.parent_path() / file.stem()).string()) + (item.text.empty() ? "" : "/" + item.name);
+  }
+  return all;
 }
 
 }  // namespace joulepath

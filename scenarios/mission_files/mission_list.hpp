@@ -19,6 +19,9 @@ struct MissionItem {
 /// ConfigError when there are none; `named_by` is the place of the source's name.
 [[nodiscard]] std::vector<MissionItem> mission_items(const std::string& source, const NamedBy& named_by = {});
 
+/// Those of several sources. A name that repeats has the path of its file before it.
+[[nodiscard]] std::vector<MissionItem> mission_items(const std::vector<std::string>& sources);
+
 /// The item's text, parsed. Throws ConfigError.
 [[nodiscard]] Document document_of(const MissionItem& item);
 

@@ -162,15 +162,16 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
-/// One factor on a quantity of the drive in all runs, or several factors, may as well be the file of a robot
-/// with another motor and mass.
+/// One factor on a quantity of the drive in all runs, or factors on several ones, may as well be the file of
+/// a robot with another motor and mass.
 std::string another_robots_words(const std::vector<DataCheck>& checks) {
-  const auto is_scaled = [](const DataCheck& check) { return check.kind == "scaled"; };
-  const bool alike = std::ranges::any_of(checks, [&](const DataCheck& check) {
-    return is_scaled(check) && check.run.empty() &&
+  const auto scales_drive = [](const DataCheck& check) {
+    return check.kind == "scaled" &&
            (check.channel.starts_with("motor_") || check.channel.starts_with("wheel_speed_"));
-  });
-  return alike || std::ranges::count_if(checks, is_scaled) > 1
+  };
+  const bool in_all_runs = std::ranges::any_of(
+      checks, [&](const DataCheck& check) { return scales_drive(check) && check.run.empty(); });
+  return in_all_runs || std::ranges::count_if(checks, scales_drive) > 1
              ? " Another robot's file gives the same picture: compare its motor and mass with the robot's "
                "first."
              : "";

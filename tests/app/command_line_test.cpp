@@ -416,6 +416,7 @@ TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
     if (!point.contains("kept_at_least")) continue;
     ++judged;
     EXPECT_GE(point["kept_at_least"], 0.9) << point;
+    EXPECT_LT(point["kept"], 1.0) << point;
   }
   EXPECT_EQ(judged, 3u);
 }

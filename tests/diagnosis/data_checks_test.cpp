@@ -267,6 +267,17 @@ TEST(PoseNotes, NameTheChannelsThatAreOdometry) {
   EXPECT_EQ(note_on(lost_once), note_on(odometry));
 }
 
+/// A firmware may sum up the wheels with constants of its own.
+TEST(PoseNotes, OfOdometryWithOtherConstants) {
+  for (const double share : {0.9, 0.97, 1.05}) {
+    Dataset day = noisy_drive();
+    Geometry of_firmware = day.robot.geometry;
+    for (const Side side : kSides) of_firmware.wheel_radius_m[side] *= share;
+    replace_by_odometry(day.runs[0], of_firmware, 0.5);
+    EXPECT_EQ(pose_notes(day).size(), 1u) << share;
+  }
+}
+
 /// A filter leans on the wheels from step to step, and on a localization over the way: it shows that the
 /// wheels are smaller than the file says.
 TEST(PoseNotes, NotOfAPoseThatALocalizationCorrects) {

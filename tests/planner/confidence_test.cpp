@@ -342,9 +342,13 @@ TEST(Confidence, IsNotPromisedForAModelThatMissesTooMuch) {
   robot.uncertainty = {{"chassis_mass_kg", 0.02}, {"model_energy", 0.3}};
   const Plan plan = planned_for(straight(6, soonest(0.95)), robot);
   EXPECT_EQ(plan.status, SolveStatus::failed);
-  EXPECT_NE(plan.message.find("cannot promise 95 %: the model misses 30 % of the energy of motion"),
+  EXPECT_NE(plan.message.find("cannot promise 95 %: the model misses 30 % of the energy of motion ("),
             std::string::npos)
       << plan.message;
+  const Plan late =
+      planned_for(straight(6, {.deadline_s = 0.5 * plan.duration_s, .confidence = 0.95}), robot);
+  EXPECT_EQ(late.status, SolveStatus::infeasible);
+  EXPECT_EQ(late.infeasibility->reason.constraint, "deadline");
 }
 
 /// Near certainty a plan without margins is not taken for one that keeps its promises.

@@ -129,6 +129,11 @@ TEST(DiagnosisSentence, NamesTheOtherReadingOfAScaledDrive) {
   EXPECT_FALSE(has_other_reading(sentence_of("motor_current_left_A", "unit", "")));
   EXPECT_FALSE(has_other_reading(sentence_of("motor_current_left_A", "scaled", "run_2")));
   EXPECT_FALSE(has_other_reading(sentence_of("gyro_yaw_rate_rad_s", "scaled", "")));
+  EXPECT_FALSE(has_other_reading(
+      diagnosis_sentence({.verdict = Verdict::data_suspect,
+                          .data_checks = {{.channel = "gyro_yaw_rate_rad_s", .kind = "scaled"},
+                                          {.channel = "battery_current_A", .kind = "scaled"}}})))
+      << "no constant of the robot tells a heading from a gyro";
 }
 
 TEST(DiagnosisSentence, AsksForTheRightRobotFile) {
