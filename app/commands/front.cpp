@@ -36,6 +36,26 @@ nlohmann::json point_json(const FrontPoint& point, double accuracy) {
   return result;
 }
 
+bool have_several_ways(const std::vector<FrontPoint>& points) {
+  return std::any_of(points.begin(), points.end(), [](const FrontPoint& point) { return point.drive > 0; });
+}
+
+/// The plan whose ways a point's drive follows, in the order of MissionFront::plans.
+const char* ways_of(const FrontPoint& point) {
+  constexpr const char* kWays[] = {"least_energy", "least_time", "between"};
+  return kWays[point.drive];
+}
+
+/// Points tell their ways where these are several.
+nlohmann::json points_json(const std::vector<FrontPoint>& points, double accuracy) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const FrontPoint& point : points) {
+    result.push_back(point_json(point, accuracy));
+    if (have_several_ways(points)) result.back()["ways"] = ways_of(point);
+  }
+  return result;
+}
+
 class FrontCommand : public Command {
  public:
   FrontCommand()
@@ -70,19 +90,17 @@ class FrontCommand : public Command {
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
     expect_steps(points_ + std::min(points_, baseline_points_));
-    const Plan plan = plan_mission(mission, world, options_.plan);
+    const auto [plans, front] = mission_front(mission, world, options_.plan, points_, open);
+    const Plan& plan = plans.front();
     if (plan.status > SolveStatus::feasible) {
       std::cerr << "no front: " << plan.message << "\n";
       return kInfeasibleOrFailed;
     }
-    const std::vector<FrontStretch> stretches = planned_stretches(plan);
-    Front front = energy_time_front(stretches, points_, open ? planned_price_W(plan) : 0.0);
     if (front.points.empty()) {
       const std::string& why = front.summary.message;
       std::cerr << "no front: " << (why.empty() ? "the mission has no stretch to optimize" : why) << "\n";
       return kInfeasibleOrFailed;
     }
-    const FrontPoint rest = rest_of(plan);
     std::optional<SureFront> sure;
     if (confidence_) {
       sure = sure_front(mission, world, open);
@@ -93,8 +111,7 @@ class FrontCommand : public Command {
     }
     std::vector<Beside> beside;
     for (std::size_t k : chosen(front.points.size(), baseline_points_))
-      beside.push_back({k, baselines_at(front.points[k], stretches, rest)});
-    for (FrontPoint& point : front.points) point = sum_of(point, rest);
+      beside.push_back({k, baselines_at(front.points[k], plans[front.points[k].drive])});
     const auto extras = writes_analysis(options_) ? report::mission_extras(plan, mission, world)
                                                   : report::MissionExtras{.title = mission.name};
     show(front, sure, beside, extras, out);
@@ -138,13 +155,13 @@ class FrontCommand : public Command {
                    .reserve_margin = held.confidence->reserve_margin};
     MissionWorld careful = world;
     careful.robot = with_margins(std::move(careful.robot), sure.limit_shares, sure.reserve_margin);
-    const Plan plan = plan_mission(mission, careful, with_limit_shares(options_.plan, sure.limit_shares));
-    if (plan.status > SolveStatus::feasible) return {.reason = plan.message};
-    sure.points =
-        energy_time_front(planned_stretches(plan), points_, open ? planned_price_W(plan) : 0.0).points;
-    for (FrontPoint& point : sure.points) point = sum_of(point, rest_of(plan));
+    const MissionFront all =
+        mission_front(mission, careful, with_limit_shares(options_.plan, sure.limit_shares), points_, open);
+    if (all.plans.front().status > SolveStatus::feasible) return {.reason = all.plans.front().message};
+    sure.points = all.front.points;
     for (const std::size_t k : chosen(sure.points.size(), kJudged))
-      if (auto account = judged(plan, mission, world, careful, sure, sure.points[k].duration_s))
+      if (auto account = judged(all.plans[sure.points[k].drive], mission, world, careful, sure,
+                                sure.points[k].duration_s))
         sure.judged[k] = *account;
     return sure;
   }
@@ -178,9 +195,9 @@ class FrontCommand : public Command {
     return indices;
   }
 
-  static std::vector<BaselineTotal> baselines_at(const FrontPoint& point,
-                                                 const std::vector<FrontStretch>& stretches,
-                                                 const FrontPoint& rest) {
+  static std::vector<BaselineTotal> baselines_at(const FrontPoint& point, const Plan& plan) {
+    const std::vector<FrontStretch> stretches = planned_stretches(plan);
+    const FrontPoint rest = rest_of(plan);
     std::vector<TimedStretch> timed;
     for (std::size_t k = 0; k < stretches.size(); ++k)
       timed.push_back({&stretches[k].request, point.stretch_s[k]});
@@ -201,10 +218,8 @@ class FrontCommand : public Command {
             const report::MissionExtras& extras, OutputDirectory& out) const {
     nlohmann::json result = {{"schema", "joulepath/front/1"},
                              {"mission", extras.title},
-                             {"points", nlohmann::json::array()},
+                             {"points", points_json(front.points, options_.plan.accuracy)},
                              {"baselines", nlohmann::json::array()}};
-    for (const FrontPoint& point : front.points)
-      result["points"].push_back(point_json(point, options_.plan.accuracy));
     for (const auto& [k, baselines] : beside)
       for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
     if (sure) result["confidence"] = sure_json(*sure);
@@ -231,22 +246,28 @@ class FrontCommand : public Command {
     nlohmann::json json{{"asked", *confidence_},
                         {"limit_shares", sure.limit_shares},
                         {"reserve_margin_fraction", sure.reserve_margin},
-                        {"points", nlohmann::json::array()}};
-    for (std::size_t k = 0; k < sure.points.size(); ++k) {
-      nlohmann::json point = point_json(sure.points[k], options_.plan.accuracy);
-      if (const auto account = sure.judged.find(k); account != sure.judged.end())
-        point["kept"] = account->second.kept, point["kept_at_least"] = account->second.kept_at_least;
-      json["points"].push_back(std::move(point));
+                        {"points", points_json(sure.points, options_.plan.accuracy)}};
+    for (const auto& [k, account] : sure.judged) {
+      nlohmann::json& point = json["points"][k];
+      point["kept"] = account.kept, point["kept_at_least"] = account.kept_at_least;
     }
     return json;
   }
 
   void print_points(const std::vector<FrontPoint>& points) const {
-    Table table({"duration s", "energy J", "without standby J", "price of a second W", "on these paths"});
-    for (const FrontPoint& point : points)
-      table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
-                 std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
-                 solve_status_name(point.status(options_.plan.accuracy))});
+    const bool several = have_several_ways(points);
+    std::vector<std::string> header{"duration s", "energy J", "without standby J", "price of a second W",
+                                    "on these paths"};
+    if (several) header.push_back("paths of");
+    Table table(header);
+    for (const FrontPoint& point : points) {
+      std::vector<std::string> row{
+          figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
+          std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
+          solve_status_name(point.status(options_.plan.accuracy))};
+      if (several) row.push_back(ways_of(point));
+      table.row(row);
+    }
     table.print(std::cout);
   }
 

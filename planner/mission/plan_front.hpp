@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "planner/mission/mission.hpp"
 #include "planner/profile/front.hpp"
-#include "planner/values/plan.hpp"
 
 namespace joulepath {
 
@@ -19,5 +19,19 @@ namespace joulepath {
 
 /// A point of the stretches' front with the rest added.
 [[nodiscard]] FrontPoint sum_of(FrontPoint point, const FrontPoint& rest);
+
+/// The front of a mission over the ways of several plans.
+struct MissionFront {
+  /// Of least energy, of least time, and at a price of time between them; the first alone where ways agree.
+  std::vector<Plan> plans{};
+  /// The lowest of the fronts on their ways, what a plan takes beside its stretches included. A point's drive
+  /// is the index of its plan.
+  Front front{};
+};
+
+/// The front of a mission without times; empty where its plan is a verdict. `open`: slower is always
+/// cheaper, so that the mission's times end the front.
+[[nodiscard]] MissionFront mission_front(const MissionRequest& mission, const MissionWorld& world,
+                                         const PlanOptions& options, std::size_t points, bool open);
 
 }  // namespace joulepath

@@ -23,11 +23,19 @@ struct FrontPoint {
   double gap_J{};  ///< no profiles take less energy by more in this time; not a number for the least time
   double gap_s{};  ///< no profiles take less time by more, for the least time
   std::vector<double> stretch_s{};  ///< duration of each stretch
+  std::size_t drive{};              ///< index of its drive, of several
 
   /// (value - lower bound)/value, of energy or of the least time.
   [[nodiscard]] double gap_percent() const;
   /// Optimal if the gap is within the accuracy (a share).
   [[nodiscard]] SolveStatus status(double accuracy) const;
+};
+
+/// Stretches that are driven one after the other, and the time (s) and energy (J) that they take beside their
+/// profiles, more than the first drive does.
+struct FrontDrive {
+  std::vector<FrontStretch> stretches{};
+  FrontPoint more{};
 };
 
 struct Front {
@@ -44,5 +52,11 @@ struct Front {
 /// the front is that point alone, and the summary's message says so.
 [[nodiscard]] Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points,
                                       double lowest_price_W = 0.0);
+
+/// The lower envelope of the fronts of several drives that lead to the same place, not always convex: points
+/// that another drive undercuts are left out. With a lowest price it ends no later than the first drive's
+/// front. A drive other than the first that cannot be driven is left out.
+[[nodiscard]] Front lowest_front(const std::vector<FrontDrive>& drives, std::size_t points,
+                                 double lowest_price_W = 0.0);
 
 }  // namespace joulepath
