@@ -8,6 +8,8 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/power.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/effects/payload_mass_error.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0506-verdict.md
 namespace joulepath {
 namespace {
@@ -21,6 +23,7 @@ bool energies_were_measured(const Examination& x) {
 /// Power to detect an effect that changes the energy: its expected evidence in units of the noise, for a gap
 /// of one percent.
 struct DetectionPower {
+  std::string effect{};
   double sigmas_per_percent{};
   double prior_sigmas_per_percent{};  ///< in units of the search's prior width
 };
@@ -36,17 +39,25 @@ double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
   return (motors ? impact.motor_power : impact.battery_power) / candidate.step[0];
 }
 
+/// A payload that no file states has no error.
+bool has_no_meaning(const Examination& x, const Candidate& candidate) {
+  return candidate.effect().info.name == PayloadMassError::info.name &&
+         std::ranges::none_of(x.id.signals, &RunSignals::payload_known);
+}
+
 std::vector<DetectionPower> detection_powers(const Examination& x) {
   std::vector<DetectionPower> effects;
   std::set<std::string> met;
   for (std::size_t c = 0; c < x.id.equations.candidates.size(); ++c) {
     const Candidate& candidate = x.id.equations.candidates[c];
-    if (candidate.effect().delays_channels || !met.insert(candidate.label()).second) continue;
+    if (candidate.effect().delays_channels || has_no_meaning(x, candidate)) continue;
+    if (!met.insert(candidate.label()).second) continue;
     const double share = energy_per_amplitude(x, candidate);
     if (share * candidate.step[0] < kLeastEnergyOfStep) continue;
     const int column = x.id.equations.columns_of_candidate(static_cast<int>(c), false).front();
     const double amplitude = 0.01 / share;
-    effects.push_back({amplitude * std::sqrt(x.id.problem.gram(column, column) / x.id.dispersion),
+    effects.push_back({candidate.label(),
+                       amplitude * std::sqrt(x.id.problem.gram(column, column) / x.id.dispersion),
                        x.id.problem.prior_sd[column] / amplitude});
   }
   return effects;
@@ -72,6 +83,14 @@ double detectable_percent(const std::vector<DetectionPower>& effects) {
   return high;
 }
 
+/// Effects by which a gap of `percent` would not be seen, however well the runs show others.
+std::vector<std::string> hidden_at(const std::vector<DetectionPower>& effects, double percent) {
+  std::vector<std::string> hidden;
+  for (const DetectionPower& effect : effects)
+    if (probability_seen(effect, percent) < kShareSeen) hidden.push_back(effect.effect);
+  return hidden;
+}
+
 std::string size_text(double percent) {
   char text[64];
   std::snprintf(text, sizeof text, "%.2g %%", percent);
@@ -87,12 +106,19 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
         .verdict = verdict == Verdict::no_gap ? Verdict::too_little_data : Verdict::partly_explained,
         .note = "no run measures the energy of the motors or of the battery: an energy gap cannot be seen"};
   if (verdict != Verdict::no_gap) return {.verdict = verdict};
-  const double percent = detectable_percent(detection_powers(x));
+  const std::vector<DetectionPower> effects = detection_powers(x);
+  const double percent = detectable_percent(effects);
   if (percent > kGreatestUnseen_percent)
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
             .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
                     " of the energy: log more channels or more runs"};
+  if (const auto hidden = hidden_at(effects, kGreatestUnseen_percent); !hidden.empty())
+    return {.verdict = Verdict::too_little_data,
+            .detectable_percent = percent,
+            .note = "no gap is seen, but these runs would not show one of " +
+                    size_text(kGreatestUnseen_percent) + " of the energy by " + text_of_list(hidden) +
+                    ": log more channels or more runs"};
   return {.verdict = verdict,
           .detectable_percent = percent,
           .note = "no gap above " +

@@ -15,6 +15,7 @@
 #include "diagnosis/where/gap.hpp"
 #include "model/simulation/simulate.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -254,6 +255,26 @@ TEST(NullDay, OfDrivesThatRepeatHasNoGap) {
     EXPECT_EQ(answer.verdict, Verdict::no_gap);
     EXPECT_TRUE(answer.causes.empty());
   }
+}
+
+/// Without voltages and battery the motors' energy is that of the file's winding: currents that agree say
+/// nothing of its resistance, however well they show other effects. A quarter more of it is no all-clear.
+TEST(NullDay, IsNoneWhereOneEffectOfTheEnergyIsHidden) {
+  Dataset day{.robot = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/tug_600kg.yaml")};
+  for (const Drive& drive : drives())
+    for (joulepath::Run& run :
+         logs_of(drive, day.robot, 8, 7,
+                 {{.name = "winding_resistance_error", .parameters = {{"fraction", 0.25}}}})) {
+      run.log.motor_voltage_V = {}, run.log.motor_power_W = {};
+      run.log.battery_voltage_V.clear(), run.log.battery_current_A.clear();
+      day.runs.push_back(std::move(run));
+    }
+  const Diagnosis d = diagnose(day);
+  EXPECT_EQ(d.verdict, Verdict::too_little_data) << verdict_name(d.verdict);
+  EXPECT_TRUE(std::ranges::any_of(d.notes, [](const std::string& note) {
+    return note.find(" of the energy by winding_resistance_error") != std::string::npos;
+  }));
+  EXPECT_LT(d.gap.energy.detectable_percent, kGreatestUnseen_percent) << "the others show";
 }
 
 /// Stamps the samples of a channel by a share of the sample time late.
