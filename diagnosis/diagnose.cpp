@@ -33,9 +33,10 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
 
 /// Causes relative to another robot's constants say nothing about this one.
 Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
-                           std::vector<ForeignConstant> constants) {
+                           std::vector<ForeignConstant> constants, std::vector<DataCheck> checks) {
   const Survey survey = survey_dataset(dataset, runs.signals);
   return {.verdict = Verdict::unexplained,
+          .data_checks = std::move(checks),
           .foreign_constants = std::move(constants),
           .missing_channels = survey.missing_channels,
           .notes = survey.notes};
@@ -229,15 +230,23 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
   return d;
 }
 
+Diagnosis diagnose_sorted(const Dataset& dataset, RunsByUse runs, std::vector<DataCheck> checks,
+                          std::vector<ForeignConstant> foreign, const DiagnoseOptions& options) {
+  if (!foreign.empty()) return of_another_robot(dataset, runs, std::move(foreign), std::move(checks));
+  if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
+  if (runs.signals.empty()) return diagnose_energies(dataset, options);
+  return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
+}
+
 /// Of the robot against the file's model.
 Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
   RunsByUse runs = sort_runs(dataset);
   std::vector<DataCheck> checks = check_data(dataset, runs);
-  if (auto constants = constants_of_another_robot(dataset, runs, checks); !constants.empty())
-    return of_another_robot(dataset, runs, std::move(constants));
-  if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
-  if (runs.signals.empty()) return diagnose_energies(dataset, options);
-  return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
+  AnotherRobot another = another_robot(dataset, runs, checks);
+  Diagnosis d =
+      diagnose_sorted(dataset, std::move(runs), std::move(checks), std::move(another.constants), options);
+  d.notes.insert(d.notes.begin(), another.notes.begin(), another.notes.end());
+  return d;
 }
 
 /// What a simulator's predictions hold beyond the file's model, and how they stand beside the robot's runs.

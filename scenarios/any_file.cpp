@@ -139,12 +139,12 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
                       notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
+  const AnotherRobot another = another_robot(dataset, runs, summary.data_checks);
   const bool of_a_simulator =
       std::ranges::any_of(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
   if (!of_a_simulator)
-    summary.question = right_robot_question(dataset.robot_file,
-                                            constants_of_another_robot(dataset, runs, summary.data_checks),
-                                            summary.data_checks);
+    summary.question = right_robot_question(dataset.robot_file, another.constants, summary.data_checks);
+  summary.notes.insert(summary.notes.begin(), another.notes.begin(), another.notes.end());
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) summary.notes.push_back(note);
   std::ranges::move(motor_notes(dataset), std::back_inserter(summary.notes));

@@ -118,6 +118,7 @@ TEST(ForeignRobot, IsToldBesideAFaultOfOneRun) {
       const Diagnosis d = diagnose(day);
       EXPECT_EQ(d.foreign_constants.empty(), factor == 1.0) << factor << " in run " << faulty;
       EXPECT_EQ(d.verdict, factor == 1.0 ? Verdict::data_suspect : Verdict::unexplained) << faulty;
+      EXPECT_FALSE(d.data_checks.empty()) << "another robot's file leaves the fault in the log: " << faulty;
     }
 }
 
