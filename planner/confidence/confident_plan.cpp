@@ -104,6 +104,7 @@ class ConfidentPlanner {
     if (is_shown(sample)) return with_account(std::move(plain), sample);
     drive_on_ways_of(std::move(plain));
     std::optional<Plan> refused = find_margins();
+    const bool hardly = refused.has_value();
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
       const Margins kept_too_little = margins_;
       if (trial > 0) tighten(margins_for(sample.drawn, sample.nominal, reserve(), aim_));
@@ -111,7 +112,7 @@ class ConfidentPlanner {
       while (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
       if (!is_driven(plan) && !refused) refused = plan;
-      if (!is_driven(plan) && trial == 0) break;
+      if (!is_driven(plan) && (trial == 0 || hardly)) break;
       if (!is_driven(plan)) plan = plan_between(kept_too_little);
       if (!is_driven(plan)) break;
       if (has_fixed_ways_) take_choices(plan, chosen_);
