@@ -8,7 +8,7 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/power.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "model/effects/payload_mass_error.hpp"
+#include "model/plant.hpp"
 #include "model/text_of_list.hpp"
 // Design: docs/decisions/0506-verdict.md
 namespace joulepath {
@@ -28,21 +28,29 @@ struct DetectionPower {
   double prior_sigmas_per_percent{};  ///< in units of the search's prior width
 };
 
-/// Share of the energy that one unit of the candidate's amplitude changes.
-double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
+/// The state with one step of a candidate's amplitude.
+ModelState with_step(const Examination& x, const Candidate& candidate) {
   ModelState with_it = x.id.state;
   std::vector<double> amplitude(candidate.amplitude.size(), 0.0);
   amplitude[0] = candidate.step[0];
   with_it.effects.push_back({candidate, amplitude});
-  const Impact impact = impact_between(x.id.signals, x.point_of(with_it), x.point_of(x.id.state));
+  return with_it;
+}
+
+/// Share of the energy that one unit of the candidate's amplitude changes.
+double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
+  const Impact impact =
+      impact_between(x.id.signals, x.point_of(with_step(x, candidate)), x.point_of(x.id.state));
   const bool motors = std::ranges::any_of(x.id.signals, measures_motors);
   return (motors ? impact.motor_power : impact.battery_power) / candidate.step[0];
 }
 
 /// A payload that no file states has no error.
 bool has_no_meaning(const Examination& x, const Candidate& candidate) {
-  return candidate.effect().info.name == PayloadMassError::info.name &&
-         std::ranges::none_of(x.id.signals, &RunSignals::payload_known);
+  if (std::ranges::any_of(x.id.signals, &RunSignals::payload_known)) return false;
+  ModelPoint point = x.point_of(with_step(x, candidate));
+  point.robot.effects = {point.effects.back()};
+  return make_plant(point.robot).payload_factor != 1.0;
 }
 
 std::vector<DetectionPower> detection_powers(const Examination& x) {

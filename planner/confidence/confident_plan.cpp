@@ -77,6 +77,14 @@ Margins between(const Margins& a, const Margins& b) {
   return middle;
 }
 
+/// Whether margins are within a tenth of larger ones.
+bool are_close(const Margins& smaller, const Margins& larger) {
+  constexpr double kPart = 0.9;
+  for (std::size_t i = 0; i < kUsedLimits; ++i)
+    if (1 - smaller.share[i] < kPart * (1 - larger.share[i])) return false;
+  return smaller.reserve >= kPart * larger.reserve;
+}
+
 /// A mission whose plan is found in rounds.
 class ConfidentPlanner {
  public:
@@ -194,6 +202,7 @@ class ConfidentPlanner {
       if (!is_driven(plan)) {
         too_much = margins_;
         refused = std::move(plan);
+        if (are_close(too_little, *too_much)) break;
         continue;
       }
       sample = judge_.estimated(plan);

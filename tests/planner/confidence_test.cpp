@@ -21,6 +21,8 @@
 namespace joulepath {
 namespace {
 
+using testing::tow;
+
 /// A robot whose motors' current is all that limits it, and that recovers nothing.
 Robot weak_robot() {
   Robot robot = testing::nomad();
@@ -513,11 +515,6 @@ Robot uncertain_tug(double max_winding_C) {
                        {"friction_torque_Nm", 0.1},
                        {"model_energy", 0.0}};
   return robot;
-}
-
-Plan tow(const MissionRequest& mission, const Robot& robot) {
-  return plan_mission(mission, {.robot = robot},
-                      {.solver = SolverChoice::fast, .nodes = 25, .baselines = false});
 }
 
 Robot drawn_tug(Robot robot, std::mt19937_64& random) {

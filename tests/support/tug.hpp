@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/accounts/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {
@@ -36,6 +37,11 @@ inline MissionRequest starts(int count, double payload_kg = 400, double dwell_s 
                             .payload = {payload_kg, payload_kg},
                             .dwell_s = dwell_s});
   return mission;
+}
+
+inline Plan tow(const MissionRequest& mission, const Robot& robot) {
+  return plan_mission(mission, {.robot = robot},
+                      {.solver = SolverChoice::fast, .nodes = 25, .baselines = false});
 }
 
 /// The temperatures of both windings from the rows of a plan alone, by small explicit steps.
