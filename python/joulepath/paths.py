@@ -15,15 +15,13 @@ from ._inputs import file_name, number, numbers, points
 from ._values import Value
 
 
-FAR_POINTS_M = 200.0  # between neighbors, as of the program's path files
+FAR_POINTS_M = 200.0  # between neighbors; a path file is doubted from three points on
 LONG_PATH_M = 5000.0
 
 
 def _doubt_units(waypoints: NDArray[np.float64]) -> None:
     """Warns of coordinates in cm or mm: points too far apart, or a path too long, for a building or a yard."""
     apart_m = np.hypot(*np.diff(waypoints, axis=0).T)
-    if len(apart_m) < 2:
-        return
     middle_m, total_m = float(np.sort(apart_m)[len(apart_m) // 2]), float(apart_m.sum())
     if middle_m >= FAR_POINTS_M or total_m > LONG_PATH_M:
         told = f"points of the path are {middle_m:.4g} m apart (median)" if middle_m >= FAR_POINTS_M else f"the path has {total_m:.4g} m"
