@@ -207,7 +207,7 @@ def interval(kept, count):
         return 0.0, 1.0
     z, p = 1.959964, kept / count
     middle, half = p + z * z / (2 * count), z * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count))
-    return (middle - half) / (1 + z * z / count), (middle + half) / (1 + z * z / count)
+    return max(0.0, (middle - half) / (1 + z * z / count)), (middle + half) / (1 + z * z / count)
 
 
 def share_text(values):
@@ -245,11 +245,14 @@ def page(results, note):
     lines += ["", f"All three together, a margin binds: kept {share_text([own(r) for r in bound])}. A plan of least energy can save nothing more for its",
               "reserve: it keeps it more often than asked, or is refused."]
     both = [r for r in limited if not r["refused"] and "scenario_kept" in r]
+    def greatest(refused):
+        return f"{max((r['cpu_s'] / r['plain_cpu_s'] for r in results if r['refused'] == refused), default=math.nan):.2f}"
+
     lines += ["", "| beside each other, missions that both plan | kept | longer than without margins, median |", "|---|---|---:|",
               f"| margins of the joint quantile | {share_text([r['kept']['limits'] for r in both])} | {100 * float(np.median([r['cost_s'] for r in both])):.2f} % |",
               f"| scenario program, {SCENARIOS} draws | {share_text([r['scenario_kept'] for r in both])} | {100 * float(np.median([r['scenario_cost_s'] for r in both])):.2f} % |",
               "", f"CPU time of a plan with confidence, relative to the plain one: median {median_text([r['cpu_s'] / r['plain_cpu_s'] for r in results])}, "
-              f"greatest {max(r['cpu_s'] / r['plain_cpu_s'] for r in results):.2f} (median of the plain ones {median_text([r['plain_cpu_s'] for r in results])} s).",
+              f"greatest {greatest(False)} of missions that are planned, {greatest(True)} of refused ones (median of the plain ones {median_text([r['plain_cpu_s'] for r in results])} s).",
               f"`model_energy` of the calibrated files: median {median_text([r['model_energy'] for r in results if r['model_energy']], '{:.4f}')}.", ""]
     return "\n".join(lines)
 

@@ -22,7 +22,7 @@ std::string plain_words(std::string name) {
 
 /// "dragging wheel (left), 0.24 N m": the effect with its strength.
 std::string strength_words(const Cause& cause) {
-  const std::string text = plain_words(effect_label(cause.effect));
+  std::string text = plain_words(effect_label(cause.effect));
   if (cause.parameters.empty()) return text;
   const FoundParameter& strength = cause.parameters.front();
   const EffectDescription* effect = find_effect(cause.effect.name);
