@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "planner/accounts/stretch_account.hpp"
 #include "planner/accounts/winding_account.hpp"
@@ -53,16 +52,15 @@ Plant PlanDemands::with_model_error(Plant plant, double sigmas) const {
 
 ShiftedPlants PlanDemands::shifted(double sigmas) const {
   ShiftedPlants plants;
-  const auto add = [&](Plant more, Plant less) {
-    plants.push_back({DrawnPlant{std::move(more)}, DrawnPlant{std::move(less)}});
-    for (DrawnPlant& drawn : plants.back()) drawn.course = courses_.of(drawn.plant);
-  };
+  const auto drawn = [&](const Plant& plant) { return DrawnPlant{plant, courses_.of(plant)}; };
   for (const Nuisance& nuisance : nuisances_of(plant_.robot)) {
     const double more = sigmas * nuisance.sigma;
-    add(with_error(plant_, nuisance, more), with_error(plant_, nuisance, std::max(-more, kLeastShare - 1)));
+    plants.push_back({drawn(with_error(plant_, nuisance, more)),
+                      drawn(with_error(plant_, nuisance, std::max(-more, kLeastShare - 1)))});
   }
-  add(with_model_error(plant_, sigmas), with_model_error(plant_, -sigmas));
-  for (const std::size_t effect : uncertain_effects(robot_)) add(plant_without(robot_, {effect}), plant_);
+  plants.push_back({drawn(with_model_error(plant_, sigmas)), drawn(with_model_error(plant_, -sigmas))});
+  for (const std::size_t effect : uncertain_effects(robot_))
+    plants.push_back({drawn(plant_without(robot_, {effect})), nominal_});
   return plants;
 }
 
