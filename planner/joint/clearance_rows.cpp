@@ -70,17 +70,17 @@ void ClearanceRows::lay_out(const Eigen::VectorXd& parameters) {
       if (share > 0.5) break;
       if (leaves_stop(j) && tight(piece.leg)) {
         begin = share;
-        parts_.push_back({j, begin, begin, {}, {}});
+        parts_.push_back({j, begin, begin, {}});
       }
       if (reaches_stop(j) && tight(piece.leg + 1)) {
         end = 1 - share;
-        parts_.push_back({j, end, end, {}, {}});
+        parts_.push_back({j, end, end, {}});
       }
     }
     for (double i = 0; i < count; ++i) {
       const double from = std::max(begin, (i - kOverlap) / count),
                    to = std::min(end, (i + 1 + kOverlap) / count);
-      if (from < to) parts_.push_back({j, from, to, {}, {}});
+      if (from < to) parts_.push_back({j, from, to, {}});
     }
   }
 }
@@ -149,20 +149,23 @@ double ClearanceRows::slack_m(const Pose& pose) const {
   return program_.checker->near_slack_m(on_floor(program_.frame, pose)) - margin_m(pose);
 }
 
-std::vector<double> ClearanceRows::values(const PathGeometry& geometry) const {
-  std::vector<double> values;
-  for (const Part& part : parts_) values.push_back(nearest(geometry, part).slack_m);
-  return values;
+std::vector<ClearanceRows::Nearest> ClearanceRows::nearest(const PathGeometry& geometry) const {
+  std::vector<Nearest> all;
+  for (const Part& part : parts_) all.push_back(nearest(geometry, part));
+  return all;
 }
 
-std::vector<double> ClearanceRows::present() const {
-  std::vector<double> values;
-  for (const Part& part : parts_) values.push_back(part.row.value);
-  return values;
+std::vector<ClearanceRows::Nearest> ClearanceRows::present() const {
+  std::vector<Nearest> all;
+  for (const Part& part : parts_) all.push_back(part.at);
+  return all;
 }
 
-void ClearanceRows::begin(const std::vector<double>& values, double mu) {
-  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].row.begin(values[i], kLeastSlack_m, mu);
+void ClearanceRows::begin(const std::vector<Nearest>& nearest, double mu) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    parts_[i].row.begin(nearest[i].slack_m, kLeastSlack_m, mu);
+    parts_[i].at = nearest[i];
+  }
 }
 
 ClearanceRows::Slopes ClearanceRows::slopes(const Pose& pose, double here_m) const {
@@ -183,22 +186,23 @@ ClearanceRows::Slopes ClearanceRows::slopes(const Pose& pose, double here_m) con
   return slopes;
 }
 
-void ClearanceRows::add(Part& part, const Nearest& at, PathGeometry& geometry, double mu,
-                        const Blocks& blocks) {
+void ClearanceRows::add(Part& part, PathGeometry& geometry, double mu) {
+  const Nearest& at = part.at;
   const Pose pose = geometry.near_pose(at.place.piece, at.place.share);
   const Slopes by = slopes(pose, at.slack_m);
   const LocalPose local = geometry.local(at.place.piece, at.place.share);
-  const auto places = geometry.gradient(at.place.piece, local);
-  part.gradient = by.x * places.col(0) + by.y * places.col(1) + by.heading * places.col(2);
+  const PoseSlopes places = geometry.slopes(at.place.piece, local);
+  PieceSums& sums = geometry.sums(at.place.piece);
+  part.gradient = places.transpose() * Eigen::Vector3d(by.x, by.y, by.heading);
   const double z = part.row.z;
-  blocks.gradient -= part.row.push(mu) * part.gradient;
-  blocks.lagrangian -= z * part.gradient;
-  blocks.hessian.noalias() += part.row.stiffness() * part.gradient * part.gradient.transpose();
+  sums.gradient -= part.row.push(mu) * part.gradient;
+  sums.lagrangian -= z * part.gradient;
+  sums.hessian += part.row.stiffness() * part.gradient * part.gradient.transpose();
   if (z < kActive) return;
   const double size = std::max(1e-3, std::hypot(by.x, by.y));
-  const Eigen::VectorXd across = (by.x * places.col(1) - by.y * places.col(0)) / size;
-  blocks.hessian.noalias() -= z * by.bend * across * across.transpose();
-  geometry.add_curvature(at.place.piece, local, {-z * by.x, -z * by.y, -z * by.heading}, blocks.hessian);
+  const PieceGradient across = (by.x * places.row(1) - by.y * places.row(0)).transpose() / size;
+  sums.hessian -= z * by.bend * across * across.transpose();
+  sums.hessian += geometry.curvature(at.place.piece, local, {-z * by.x, -z * by.y, -z * by.heading});
   if (!at.inside || !program_.checker->is_disc()) return;
   // Along the path, d the distance, u the rate of its length, kappa its curvature, n = +-(its normal):
   // d_f = 0,  d_ff = u^2 (bend +- kappa),  d_fp = u (bend t . x_p +- heading_p),  D2 min d = D2 d - d_fp
@@ -208,18 +212,19 @@ void ClearanceRows::add(Part& part, const Nearest& at, PathGeometry& geometry, d
   const double turn = side * geometry.curvature_per_m(at.place.piece, at.place.share),
                opening = by.bend + turn;
   if (opening < kLeastOpening_per_m) return;
-  const Eigen::VectorXd slide = by.bend * (c * places.col(0) + s * places.col(1)) + side * places.col(2);
-  blocks.hessian.noalias() += z / opening * slide * slide.transpose();
+  const PieceGradient slide =
+      (by.bend * (c * places.row(0) + s * places.row(1)) + side * places.row(2)).transpose();
+  sums.hessian += z / opening * slide * slide.transpose();
 }
 
-ClearanceRows::Sums ClearanceRows::assemble(PathGeometry& geometry, double mu, const Blocks& blocks) {
+ClearanceRows::Sums ClearanceRows::assemble(PathGeometry& geometry, double mu) {
   Sums sums;
   for (Part& part : parts_) {
-    const Nearest at = nearest(geometry, part);
-    part.row.value = at.slack_m;
-    part.gradient.resize(0);
-    if (part.row.value < kFar_m - program_.margin_m) add(part, at, geometry, mu, blocks);
-    sums.lost |= part.row.value < 0 && part.gradient.lpNorm<Eigen::Infinity>() < kFlat;
+    part.gradient.setZero();
+    if (part.row.value < kFar_m - program_.margin_m) add(part, geometry, mu);
+    // The start of the path does not move.
+    const Eigen::Index fixed = part.at.place.piece == 0 ? 3 : 0;
+    sums.lost |= part.row.value < 0 && part.gradient.tail(6 - fixed).lpNorm<Eigen::Infinity>() < kFlat;
     sums.least_m = std::min(sums.least_m, part.row.value);
     sums.complementarity += part.row.s * part.row.z;
     sums.primal += std::abs(part.row.residual()) * part.row.z;
@@ -227,19 +232,22 @@ ClearanceRows::Sums ClearanceRows::assemble(PathGeometry& geometry, double mu, c
   return sums;
 }
 
-void ClearanceRows::step(const Eigen::VectorXd& change, double mu, StepLengths& lengths) {
-  for (Part& part : parts_)
-    part.row.step(part.gradient.size() ? part.gradient.dot(change) : 0.0, mu, lengths);
+void ClearanceRows::step(const std::vector<PieceGradient>& changes, double mu, StepLengths& lengths) {
+  for (Part& part : parts_) part.row.step(part.gradient.dot(changes[part.at.place.piece]), mu, lengths);
 }
 
-double ClearanceRows::merit(const std::vector<double>& values, double step, double mu) const {
+double ClearanceRows::merit(const std::vector<Nearest>& nearest, double step, double mu) const {
   double sum = 0;
-  for (std::size_t i = 0; i < parts_.size(); ++i) sum += parts_[i].row.merit(step, values[i], mu, 1.0);
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    sum += parts_[i].row.merit(step, nearest[i].slack_m, mu, 1.0);
   return sum;
 }
 
-void ClearanceRows::take(const std::vector<double>& values, double primal, double dual, double mu) {
-  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].row.take(primal, dual, values[i], mu);
+void ClearanceRows::take(const std::vector<Nearest>& nearest, double primal, double dual, double mu) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    parts_[i].row.take(primal, dual, nearest[i].slack_m, mu);
+    parts_[i].at = nearest[i];
+  }
 }
 
 }  // namespace joulepath::joint

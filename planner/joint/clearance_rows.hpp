@@ -15,40 +15,39 @@ class ClearanceRows {
   explicit ClearanceRows(const Program& program) : program_(program) {}
   void lay_out(const Eigen::VectorXd& parameters);
 
-  /// Slack (m) beyond the margin of each part, exact up to a tenth of a metre and never more.
-  [[nodiscard]] std::vector<double> values(const PathGeometry& geometry) const;
-  [[nodiscard]] std::vector<double> present() const;
-
-  struct Blocks {
-    Eigen::VectorXd &gradient, &lagrangian;
-    Eigen::MatrixXd& hessian;
+  struct Place {
+    std::size_t piece{};
+    double share{};
   };
+  /// The place of a part with the least slack beyond the margin, exact up to a tenth of a metre and never
+  /// more.
+  struct Nearest {
+    Place place{};
+    double slack_m{};
+    bool inside{};  ///< of the part: not at an end
+  };
+  [[nodiscard]] std::vector<Nearest> nearest(const PathGeometry& geometry) const;
+  [[nodiscard]] std::vector<Nearest> present() const;
+
   struct Sums {
     double complementarity{}, primal{};
     bool lost{};               ///< the distance at a place without clearance has no slope
     double least_m{kNoLimit};  ///< of the rows' slacks
   };
-  void begin(const std::vector<double>& values, double mu);
-  Sums assemble(PathGeometry& geometry, double mu, const Blocks& blocks);
-  void step(const Eigen::VectorXd& change, double mu, StepLengths& lengths);
-  double merit(const std::vector<double>& values, double step, double mu) const;
-  void take(const std::vector<double>& values, double primal, double dual, double mu);
+  void begin(const std::vector<Nearest>& nearest, double mu);
+  /// Adds to the sums of the geometry's pieces, which stands where the present places were found.
+  Sums assemble(PathGeometry& geometry, double mu);
+  void step(const std::vector<PieceGradient>& changes, double mu, StepLengths& lengths);
+  double merit(const std::vector<Nearest>& nearest, double step, double mu) const;
+  void take(const std::vector<Nearest>& nearest, double primal, double dual, double mu);
 
  private:
   struct Part {
     std::size_t piece{};
     double from{}, to{};  ///< shares of the piece, that of a neighbor below 0 and above 1
     Row row{};
-    Eigen::VectorXd gradient{};  ///< empty: far from every obstacle
-  };
-  struct Place {
-    std::size_t piece{};
-    double share{};
-  };
-  struct Nearest {
-    Place place{};
-    double slack_m{};
-    bool inside{};  ///< of the part: not at an end
+    Nearest at{};
+    PieceGradient gradient = PieceGradient::Zero();  ///< zero: far from every obstacle
   };
   Place place(const PathGeometry& geometry, std::size_t piece, double share) const;
   Nearest nearest(const PathGeometry& geometry, const Part& part) const;
@@ -61,7 +60,7 @@ class ClearanceRows {
   double margin_m(const Pose& pose) const;
   double slack_m(const Pose& pose) const;
   Slopes slopes(const Pose& pose, double here_m) const;
-  void add(Part& part, const Nearest& at, PathGeometry& geometry, double mu, const Blocks& blocks);
+  void add(Part& part, PathGeometry& geometry, double mu);
 
   /// A place where the robot stands, in the program's frame, and the slack there.
   struct Stop {

@@ -13,6 +13,7 @@ namespace joulepath::joint {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Jet = nlp::JetOf<kSegmentVariables>;
 
 constexpr double kCostScale = 100;         ///< the cost of a start in the program's unit
@@ -33,26 +34,28 @@ constexpr double kNearTolerance = 5;       ///< of a solution whose cost no long
 constexpr double kLeastGain = 1e-4;
 constexpr int kPatience = 8;
 
-/// A part of a piece between two nodes of the speed.
-struct Part {
-  std::size_t piece{};
-  double f0{}, f1{};
-  Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
-};
-
 /// Whether a row goes below -kDeep_m, or deeper where it was there before.
-bool sinks(const std::vector<double>& before_m, const std::vector<double>& after_m) {
-  for (std::size_t i = 0; i < after_m.size(); ++i)
-    if (after_m[i] < std::min(before_m[i], -kDeep_m)) return true;
+bool sinks(const std::vector<ClearanceRows::Nearest>& before,
+           const std::vector<ClearanceRows::Nearest>& after) {
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (after[i].slack_m < std::min(before[i].slack_m, -kDeep_m)) return true;
   return false;
 }
 
-class Newton {
+}  // namespace
+
+class JointNewton::Steps {
  public:
-  Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares);
-  JointSolution run();
+  Steps(const Start& start, double gap, const VectorXd& squares);
+  JointSolution run(const NewtonOptions& options);
 
  private:
+  /// A part of a piece between two nodes of the speed.
+  struct Part {
+    std::size_t piece{};
+    double f0{}, f1{};
+    Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
+  };
   struct Sums {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
     bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out, or still does after
@@ -64,7 +67,7 @@ class Newton {
   };
   struct Values {
     std::vector<SegmentValues<double>> parts{};
-    std::vector<double> clearance{};
+    std::vector<ClearanceRows::Nearest> clearance{};
     VectorXd errors{};
   };
 
@@ -75,6 +78,10 @@ class Newton {
   template <class Each>
   void for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each);
   const DriveLaw& law(const Part& part) const { return program_.laws[program_.pieces[part.piece].law]; }
+  double row_value(std::size_t k, std::size_t r, const SegmentValues<double>& at) const {
+    const RowLaw& row = row_laws_[parts_[k].piece][r];
+    return 1 + row.slope * at.bounded[row.quantity];
+  }
   double loss(const Part& part) const { return 1 - law(part).efficiency; }
   std::array<Index, 3> columns(const Part& part) const {
     const Piece& piece = program_.pieces[part.piece];
@@ -84,24 +91,26 @@ class Newton {
   SegmentValues<Real> values_of(std::size_t k, const VectorXd& squares, const VectorXd& parameters) const;
   Values values(const VectorXd& squares, const VectorXd& parameters) const;
 
-  Sums assemble(int steps);
+  Sums assemble();
+  void look_at(const NewtonOptions& options);
   void add_part(std::size_t k, Sums& sums);
-  void add_to_blocks(const Part& part, const std::array<double, kSegmentVariables>& gradient,
+  void add_to_blocks(std::size_t k, const std::array<double, kSegmentVariables>& gradient,
                      const std::array<double, kSegmentVariables>& lagrangian,
                      const std::array<double, Jet::kTriangle>& hessian);
   void add_rows_of_bounds(Sums& sums);
   void hold_knots();
   void direction();
-  void solve_tridiagonal(Eigen::Ref<MatrixXd> x) const;
+  RowMajor eliminated() const;
   StepLengths step_rows();
   double merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step);
   void search(const StepLengths& lengths);
   void correct(VectorXd& parameters, double step, const VectorXd& errors) const;
-  void lower_barrier(const Sums& sums);
+  void lower_barrier(double tolerance);
 
   Program program_;
-  NewtonOptions options_;
-  double scale_{1};  ///< program's unit per J
+  double gap_;
+  std::vector<std::array<RowLaw, kSegmentRows>> row_laws_{};  ///< per piece
+  double scale_{1};                                           ///< program's unit per J
   std::vector<Part> parts_{};
   Index free_{};           ///< number of unknown squares
   double most_square_{1};  ///< scale of b
@@ -119,17 +128,23 @@ class Newton {
   double mu_{};
   std::size_t pairs_{};
   VectorXd gb_{}, gp_{}, lb_{}, lp_{}, diagonal_{}, beside_{}, pivot_{}, lower_{};
-  MatrixXd border_{}, hpp_{}, metric_{}, range_{};  ///< range_: of the targets' gradient
+  std::vector<Eigen::Matrix<double, 2, 3>> border_{};  ///< per part: its squares by its path's parameters
+  MatrixXd hpp_{}, metric_{}, range_{};                ///< range_: of the targets' gradient
   Eigen::PartialPivLU<MatrixXd> on_range_{};
   VectorXd errors_{}, db_{}, dp_{};
   MatrixXd targets_{};
   Regularization regularization_{};
   double penalty_{0}, step_{1};
+
+  bool assembled_{};  ///< at the present state
+  Sums sums_{};
+  std::array<double, kPatience> recent_J_{};  ///< costs of the last steps
+  JointSolution solution_{};
 };
 
-Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares)
+JointNewton::Steps::Steps(const Start& start, double gap, const VectorXd& squares)
     : program_(start.program),
-      options_(options),
+      gap_(gap),
       p_(start.parameters),
       held_(program_.held()),
       clearance_(program_),
@@ -143,9 +158,13 @@ Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd&
     begin_speed();
   }
   clearance_.lay_out(p_);
+  begin_rows();
+  recent_J_.fill(kNoLimit);
 }
 
-void Newton::lay_out() {
+void JointNewton::Steps::lay_out() {
+  for (const Piece& piece : program_.pieces)
+    row_laws_.push_back(row_laws(program_.laws[piece.law].limits, piece.sign));
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
     const Piece& piece = program_.pieces[j];
     for (std::size_t i = 0; i < piece.segments; ++i) {
@@ -164,7 +183,7 @@ void Newton::lay_out() {
 }
 
 /// Square of the rate that a start has at most at a place.
-double Newton::cap(const Part& part, double f) const {
+double JointNewton::Steps::cap(const Part& part, double f) const {
   const Limits& most = law(part).limits;
   const auto [a, b, l] = columns(part);
   const PieceRates<double> rates = piece_rates(p_[a], p_[b], program_.half_track_m());
@@ -179,7 +198,7 @@ double Newton::cap(const Part& part, double f) const {
 }
 
 /// Forward and backward pass at a share of the limits.
-void Newton::begin_speed() {
+void JointNewton::Steps::begin_speed() {
   const auto count = static_cast<Index>(parts_.size());
   b_.setConstant(count + 1, kNoLimit);
   VectorXd gain(count);
@@ -206,7 +225,8 @@ void Newton::begin_speed() {
 }
 
 template <class Real>
-SegmentValues<Real> Newton::values_of(std::size_t k, const VectorXd& squares, const VectorXd& p) const {
+SegmentValues<Real> JointNewton::Steps::values_of(std::size_t k, const VectorXd& squares,
+                                                  const VectorXd& p) const {
   const Part& part = parts_[k];
   const auto [a, b, l] = columns(part);
   const auto at = static_cast<Index>(k);
@@ -219,25 +239,26 @@ SegmentValues<Real> Newton::values_of(std::size_t k, const VectorXd& squares, co
       variables[i] =
           (i == 0 && part.b0 < 0) || (i == 1 && part.b1 < 0) ? Real(x[i]) : Real::variable(i, x[i]);
   SegmentValues<Real> out;
-  evaluate_segment(law(part), program_.pieces[part.piece].sign, variables, part.f0, part.f1, out);
+  evaluate_segment(law(part), variables, part.f0, part.f1, out);
   for (Real& energy : out.energy_J) energy = energy * scale_;
   return out;
 }
 
-Newton::Values Newton::values(const VectorXd& squares, const VectorXd& parameters) const {
+JointNewton::Steps::Values JointNewton::Steps::values(const VectorXd& squares,
+                                                      const VectorXd& parameters) const {
   Values all;
   for (std::size_t k = 0; k < parts_.size(); ++k)
     all.parts.push_back(values_of<double>(k, squares, parameters));
   PathGeometry geometry(program_);
   geometry.place(parameters);
   all.errors = geometry.errors();
-  all.clearance = clearance_.values(geometry);
+  all.clearance = clearance_.nearest(geometry);
   return all;
 }
 
 /// Calls each(row, value, parameter, sign) for the bounds of squares (parameter: none), knots and lengths.
 template <class Each>
-void Newton::for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each) {
+void JointNewton::Steps::for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each) {
   std::size_t row = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)
     if (parts_[k].b1 >= 0)
@@ -257,7 +278,7 @@ void Newton::for_bounds(const VectorXd& squares, const VectorXd& parameters, con
   }
 }
 
-void Newton::begin_rows() {
+void JointNewton::Steps::begin_rows() {
   const double at_start = [&] {
     double cost = 0;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
@@ -275,21 +296,22 @@ void Newton::begin_rows() {
   for_bounds(b_, p_, [&](Row&, double, Index, bool, double) { ++used; });
   bounds_.resize(used);
   pairs_ += used;
-  mu_ = options_.gap * kCostScale / static_cast<double>(pairs_);
+  mu_ = gap_ * kCostScale / static_cast<double>(pairs_);
   for_bounds(b_, p_, [&](Row& row, double value, Index, bool, double) { row.begin(value, 1e-3, mu_); });
   rows_.resize(parts_.size());
   channels_.resize(parts_.size());
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].begin(v.parts[k].rows[r], 2e-2, mu_);
+    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].begin(row_value(k, r, v.parts[k]), 2e-2, mu_);
     for (std::size_t c = 0; c < 2; ++c) channels_[k][c].begin(v.parts[k].energy_J[c], loss(parts_[k]), mu_);
   }
   clearance_.begin(v.clearance, mu_);
   lambda_.setZero(v.errors.size());
 }
 
-void Newton::add_to_blocks(const Part& part, const std::array<double, kSegmentVariables>& gradient,
-                           const std::array<double, kSegmentVariables>& lagrangian,
-                           const std::array<double, Jet::kTriangle>& hessian) {
+void JointNewton::Steps::add_to_blocks(std::size_t k, const std::array<double, kSegmentVariables>& gradient,
+                                       const std::array<double, kSegmentVariables>& lagrangian,
+                                       const std::array<double, Jet::kTriangle>& hessian) {
+  const Part& part = parts_[k];
   const std::array<Index, 2> unknown{part.b0, part.b1};
   const std::array<Index, 3> column = columns(part);
   for (std::size_t i = 0, at = 0; i < kSegmentVariables; ++i)
@@ -299,7 +321,7 @@ void Newton::add_to_blocks(const Part& part, const std::array<double, kSegmentVa
         if (unknown[i] < 0 || unknown[n] < 0) continue;
         (i == n ? diagonal_[unknown[i]] : beside_[unknown[n]]) += h;
       } else if (n < 2) {
-        if (unknown[n] >= 0) border_(unknown[n], column[i - 2]) += h;
+        border_[k](static_cast<Index>(n), static_cast<Index>(i) - 2) = h;
       } else {
         hpp_(column[i - 2], column[n - 2]) += h;
         if (n < i) hpp_(column[n - 2], column[i - 2]) += h;
@@ -312,7 +334,7 @@ void Newton::add_to_blocks(const Part& part, const std::array<double, kSegmentVa
   }
 }
 
-void Newton::add_part(std::size_t k, Sums& sums) {
+void JointNewton::Steps::add_part(std::size_t k, Sums& sums) {
   const SegmentValues<Jet>& x = jets_[k];
   const double price = law(parts_[k]).price_W * scale_, lost = loss(parts_[k]);
   std::array<double, kSegmentVariables> gradient{}, lagrangian{};
@@ -337,17 +359,26 @@ void Newton::add_part(std::size_t k, Sums& sums) {
     sums.primal += std::abs(channel.residual()) * channel.y;
     sums.dual += std::abs(lost - channel.u - channel.y) * channel.zeta;
   }
-  for (std::size_t r = 0; r < kSegmentRows; ++r) {
-    if (r < kCapRows && parts_[k].b1 < 0) continue;  // at rest every cap holds
+  struct Weights {
+    double gradient{}, multiplier{}, stiffness{};
+  };
+  std::array<Weights, kSegmentQuantities> weights{};
+  for (std::size_t r = parts_[k].b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r) {  // at rest every cap holds
     const Row& row = rows_[k][r];
-    add(x.rows[r], -row.push(mu_), -row.z, -row.z, row.stiffness());
+    const auto [quantity, slope] = row_laws_[parts_[k].piece][r];
+    weights[quantity].gradient -= slope * row.push(mu_);
+    weights[quantity].multiplier -= slope * row.z;
+    weights[quantity].stiffness += slope * slope * row.stiffness();
     sums.complementarity += row.s * row.z;
     sums.primal += std::abs(row.residual()) * row.z;
   }
-  add_to_blocks(parts_[k], gradient, lagrangian, hessian);
+  for (std::size_t q = parts_[k].b1 < 0 ? kCapQuantities : 0; q < kSegmentQuantities; ++q)
+    add(x.bounded[q], weights[q].gradient, weights[q].multiplier, weights[q].multiplier,
+        weights[q].stiffness);
+  add_to_blocks(k, gradient, lagrangian, hessian);
 }
 
-void Newton::add_rows_of_bounds(Sums& sums) {
+void JointNewton::Steps::add_rows_of_bounds(Sums& sums) {
   for_bounds(b_, p_, [&](Row& row, double value, Index at, bool square, double slope) {
     row.value = value;
     (square ? gb_ : gp_)[at] -= slope * row.push(mu_);
@@ -358,33 +389,36 @@ void Newton::add_rows_of_bounds(Sums& sums) {
   });
 }
 
-Newton::Sums Newton::assemble(int steps) {
+JointNewton::Steps::Sums JointNewton::Steps::assemble() {
   const Index n = program_.parameters();
   gb_.setZero(free_);
   lb_.setZero(free_);
   gp_.setZero(n);
   diagonal_.setZero(free_);
   beside_.setZero(free_);
-  border_.setZero(free_, n);
+  lp_.setZero(n);
+  border_.resize(parts_.size());
   hpp_.setZero(n, n);
   Sums sums;
   geometry_.differentiate(p_);
   errors_ = geometry_.errors();
   targets_ = geometry_.error_gradient();
-  lp_ = targets_.transpose() * lambda_;
   jets_.resize(parts_.size());
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     jets_[k] = values_of<Jet>(k, b_, p_);
-    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].value = jets_[k].rows[r].value;
+    for (std::size_t r = 0; r < kSegmentRows; ++r) {
+      const RowLaw& row = row_laws_[parts_[k].piece][r];
+      rows_[k][r].value = 1 + row.slope * jets_[k].bounded[row.quantity].value;
+    }
     for (std::size_t c = 0; c < 2; ++c) channels_[k][c].E = jets_[k].energy_J[c].value;
     add_part(k, sums);
   }
   add_rows_of_bounds(sums);
-  const auto clear = clearance_.assemble(geometry_, mu_, {gp_, lp_, hpp_});
+  const auto clear = clearance_.assemble(geometry_, mu_);
   sums.complementarity += clear.complementarity;
   sums.primal += clear.primal;
-  sums.lost = clear.lost || (steps >= kWayOut && clear.least_m < -kDeep_m);
-  geometry_.finish_curvature(lambda_, hpp_);
+  sums.lost = clear.lost || (solution_.steps >= kWayOut && clear.least_m < -kDeep_m);
+  geometry_.add_sums(lambda_, gp_, lp_, hpp_);
   metric_ = kDisplacementWeight * geometry_.displacement_metric();
   for (Index i = 0; i < n; ++i)
     metric_(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
@@ -398,10 +432,11 @@ Newton::Sums Newton::assemble(int steps) {
 }
 
 /// Takes the knots that do not move out of the system.
-void Newton::hold_knots() {
+void JointNewton::Steps::hold_knots() {
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (program_.pieces[parts_[k].piece].turns) border_[k].leftCols<2>().setZero();
   for (const Index knot : held_) {
     gp_[knot] = lp_[knot] = 0;
-    border_.col(knot).setZero();
     targets_.col(knot).setZero();
     for (MatrixXd* square : {&hpp_, &metric_}) {
       square->row(knot).setZero();
@@ -411,15 +446,28 @@ void Newton::hold_knots() {
   }
 }
 
-void Newton::solve_tridiagonal(Eigen::Ref<MatrixXd> x) const {
+/// T^-1 [B g]: the squares' part of the system, solved for each parameter and for the gradient.
+RowMajor JointNewton::Steps::eliminated() const {
+  const Index n = program_.parameters();
+  RowMajor x = RowMajor::Zero(free_, n + 1);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
+    const std::array<Index, 3> column = columns(parts_[k]);
+    for (Index i = 0; i < 2; ++i)
+      for (Index c = 0; c < 3; ++c)
+        if (const Index row = unknown[static_cast<std::size_t>(i)]; row >= 0)
+          x(row, column[static_cast<std::size_t>(c)]) += border_[k](i, c);
+  }
+  x.col(n) = gb_;
   for (Index k = 1; k < free_; ++k) x.row(k) -= lower_[k] * x.row(k - 1);
   for (Index k = 0; k < free_; ++k) x.row(k) /= pivot_[k];
   for (Index k = free_ - 1; k-- > 0;) x.row(k) -= lower_[k + 1] * x.row(k + 1);
+  return x;
 }
 
 /// The step from [T B 0; B' H A'; 0 A 0]: the squares' tridiagonal block is eliminated, the rest is solved in
 /// the null space of the targets' gradient A.
-void Newton::direction() {
+void JointNewton::Steps::direction() {
   const Index n = program_.parameters(), rows = errors_.size();
   pivot_ = diagonal_;
   lower_.setZero(free_);
@@ -430,22 +478,36 @@ void Newton::direction() {
     }
     if (!(pivot_[k] > 1e-9 * std::abs(diagonal_[k]))) pivot_[k] = 1e-2 * std::abs(diagonal_[k]) + 1e-6;
   }
-  MatrixXd x(free_, n + 1);
-  x << border_, gb_;
-  solve_tridiagonal(x);
-  const MatrixXd schur = hpp_ - border_.transpose() * x.leftCols(n);
-  const VectorXd gradient = gp_ - border_.transpose() * x.col(n);
+  const RowMajor x = eliminated();
+  RowMajor schur(n, n + 1);  // and the gradient
+  schur << hpp_, gp_;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
+    const std::array<Index, 3> column = columns(parts_[k]);
+    for (Index c = 0; c < 3; ++c)
+      for (Index i = 0; i < 2; ++i)
+        if (const Index row = unknown[static_cast<std::size_t>(i)]; row >= 0)
+          schur.row(column[static_cast<std::size_t>(c)]) -= border_[k](i, c) * x.row(row);
+  }
 
-  const MatrixXd q =
-      Eigen::HouseholderQR<MatrixXd>(targets_.transpose()).householderQ() * MatrixXd::Identity(n, n);
-  range_ = q.leftCols(rows);
-  const MatrixXd null = q.rightCols(n - rows);
+  const Eigen::HouseholderQR<MatrixXd> qr(targets_.transpose());
+  const auto q = qr.householderQ();
+  const auto in_null = [&](MatrixXd square) {
+    square.applyOnTheLeft(q.adjoint());
+    square.applyOnTheRight(q);
+    return MatrixXd(square.bottomRightCorner(n - rows, n - rows));
+  };
+  range_ = q * MatrixXd::Identity(n, rows);
   on_range_.compute(targets_ * range_);
   const VectorXd to_targets = range_ * on_range_.solve(-errors_);
-  const MatrixXd reduced = null.transpose() * schur * null, damping = null.transpose() * metric_ * null;
-  const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
-  dp_ = to_targets + null * descent(reduced, damping, regularization_.value(), right);
-  const VectorXd rest = -(gradient + schur * dp_ + regularization_.value() * metric_ * (dp_ - to_targets));
+  const double damping = regularization_.value();
+  const VectorXd right = -(q.adjoint() * (schur.col(n) + schur.leftCols(n) * to_targets));
+  VectorXd across(n);
+  across << VectorXd::Zero(rows), descent(
+                                      in_null(schur.leftCols(n) + damping * metric_),
+                                      [&] { return in_null(metric_); }, damping, right.tail(n - rows));
+  dp_ = to_targets + q * across;
+  const VectorXd rest = -(schur.col(n) + schur.leftCols(n) * dp_ + damping * metric_ * (dp_ - to_targets));
   lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
   for (const Index knot : held_) dp_[knot] = 0;
   for (Index i = program_.knots; i < n; ++i)
@@ -453,7 +515,7 @@ void Newton::direction() {
   db_ = -x.col(n) - x.leftCols(n) * dp_;
 }
 
-StepLengths Newton::step_rows() {
+StepLengths JointNewton::Steps::step_rows() {
   StepLengths lengths;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
@@ -465,8 +527,12 @@ StepLengths Newton::step_rows() {
       for (std::size_t i = 0; i < d.size(); ++i) sum += f.d[i] * d[i];
       return sum;
     };
-    for (std::size_t r = part.b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r)
-      rows_[k][r].step(change(jets_[k].rows[r]), mu_, lengths);
+    std::array<double, kSegmentQuantities> changes{};
+    for (std::size_t q = 0; q < kSegmentQuantities; ++q) changes[q] = change(jets_[k].bounded[q]);
+    for (std::size_t r = part.b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r) {
+      const auto [quantity, slope] = row_laws_[part.piece][r];
+      rows_[k][r].step(slope * changes[quantity], mu_, lengths);
+    }
     for (std::size_t c = 0; c < 2; ++c)
       channels_[k][c].step(change(jets_[k].energy_J[c]), loss(part), mu_, lengths);
     if (part.b1 >= 0) StepLengths::shorten(lengths.primal, b_[static_cast<Index>(k) + 1], db_[part.b1]);
@@ -474,7 +540,7 @@ StepLengths Newton::step_rows() {
   for_bounds(b_, p_, [&](Row& row, double, Index at, bool square, double slope) {
     row.step(slope * (square ? db_ : dp_)[at], mu_, lengths);
   });
-  clearance_.step(dp_, mu_, lengths);
+  clearance_.step(geometry_.changes(dp_), mu_, lengths);
   for (Index i = 0; i < dp_.size(); ++i) {
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
@@ -484,14 +550,15 @@ StepLengths Newton::step_rows() {
   return lengths;
 }
 
-double Newton::merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step) {
+double JointNewton::Steps::merit(const Values& at, const VectorXd& squares, const VectorXd& parameters,
+                                 double step) {
   double sum = penalty_ * at.errors.lpNorm<1>();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     sum += law(parts_[k]).price_W * scale_ * at.parts[k].duration_s;
     for (std::size_t c = 0; c < 2; ++c)
       sum += channels_[k][c].merit(step, at.parts[k].energy_J[c], loss(parts_[k]), mu_);
     for (std::size_t r = parts_[k].b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r)
-      sum += rows_[k][r].merit(step, at.parts[k].rows[r], mu_, 0.05);
+      sum += rows_[k][r].merit(step, row_value(k, r, at.parts[k]), mu_, 0.05);
   }
   for_bounds(squares, parameters,
              [&](Row& row, double value, Index, bool, double) { sum += row.merit(step, value, mu_, 0.05); });
@@ -499,7 +566,7 @@ double Newton::merit(const Values& at, const VectorXd& squares, const VectorXd& 
 }
 
 /// Second-order correction: moves back to what the linearized targets promise ([NocedalWright2006], 18.3).
-void Newton::correct(VectorXd& parameters, double step, const VectorXd& errors) const {
+void JointNewton::Steps::correct(VectorXd& parameters, double step, const VectorXd& errors) const {
   PathGeometry geometry(program_);
   for (int i = 0; i < 2; ++i) {
     geometry.place(parameters);
@@ -511,7 +578,7 @@ void Newton::correct(VectorXd& parameters, double step, const VectorXd& errors) 
   }
 }
 
-void Newton::search(const StepLengths& lengths) {
+void JointNewton::Steps::search(const StepLengths& lengths) {
   constexpr int kHalvings = 7;
   penalty_ = std::max(0.5 * penalty_, 1.2 * std::max(1.0, lambda_new_.lpNorm<Eigen::Infinity>()));
   Values now;
@@ -521,7 +588,7 @@ void Newton::search(const StepLengths& lengths) {
     SegmentValues<double>& part = now.parts.emplace_back();
     part.duration_s = jets_[k].duration_s.value;
     for (std::size_t c = 0; c < 2; ++c) part.energy_J[c] = jets_[k].energy_J[c].value;
-    for (std::size_t r = 0; r < kSegmentRows; ++r) part.rows[r] = jets_[k].rows[r].value;
+    for (std::size_t q = 0; q < kSegmentQuantities; ++q) part.bounded[q] = jets_[k].bounded[q].value;
   }
   const double before = merit(now, b_, p_, 0);
   step_ = lengths.primal;
@@ -545,7 +612,7 @@ void Newton::search(const StepLengths& lengths) {
   regularization_.adapt(step_, halvings);
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     for (std::size_t r = 0; r < kSegmentRows; ++r)
-      rows_[k][r].take(step_, lengths.dual, next.parts[k].rows[r], mu_);
+      rows_[k][r].take(step_, lengths.dual, row_value(k, r, next.parts[k]), mu_);
     for (std::size_t c = 0; c < 2; ++c) channels_[k][c].take(step_, lengths.dual, next.parts[k].energy_J[c]);
   }
   for_bounds(b, p,
@@ -557,54 +624,56 @@ void Newton::search(const StepLengths& lengths) {
 }
 
 /// The barrier falls with the step's length, never below a share of the other residuals.
-void Newton::lower_barrier(const Sums& sums) {
+void JointNewton::Steps::lower_barrier(double tolerance) {
   const auto pairs = static_cast<double>(pairs_);
-  const double rest = std::max(sums.primal, 0.1 * sums.dual),
-               last = 0.05 * options_.tolerance * sums.cost / pairs;
+  const double rest = std::max(sums_.primal, 0.1 * sums_.dual), last = 0.05 * tolerance * sums_.cost / pairs;
   const double factor = step_ > 0.6 ? std::max(0.1, 1 - step_) : step_ > 0.25 ? 0.5 : 1.0;
-  const double aim = std::min(mu_, sums.complementarity / pairs) * factor;
+  const double aim = std::min(mu_, sums_.complementarity / pairs) * factor;
   mu_ = std::max(last, std::min(mu_, std::max({aim, last, kLeastOfRest * rest / pairs})));
 }
 
-JointSolution Newton::run() {
-  begin_rows();
-  JointSolution solution;
-  std::array<double, kPatience> recent;  // costs
-  recent.fill(kNoLimit);
-  for (;; ++solution.steps) {
-    const Sums sums = assemble(solution.steps);
-    solution.cost_J = sums.cost / scale_;
-    solution.duration_s = sums.duration_s;
-    const double error = sums.error();
-    double& before = recent[static_cast<std::size_t>(solution.steps % kPatience)];
-    const bool gains = !(std::abs(before - sums.cost) < kLeastGain * sums.cost);
-    before = sums.cost;
-    solution.converged =
-        error < options_.tolerance || (!gains && !sums.lost && sums.is_near(options_.tolerance));
-    solution.feasible = !sums.lost && sums.primal < kFeasible * sums.cost && errors_.norm() < kFeasible;
-    if (solution.converged || sums.lost || !std::isfinite(error) || solution.steps == options_.most_steps)
+void JointNewton::Steps::look_at(const NewtonOptions& options) {
+  sums_ = assemble();
+  assembled_ = true;
+  solution_.cost_J = sums_.cost / scale_;
+  solution_.duration_s = sums_.duration_s;
+  double& before_J = recent_J_[static_cast<std::size_t>(solution_.steps % kPatience)];
+  const bool gains = !(std::abs(before_J - sums_.cost) < kLeastGain * sums_.cost);
+  before_J = sums_.cost;
+  solution_.converged =
+      sums_.error() < options.tolerance || (!gains && !sums_.lost && sums_.is_near(options.tolerance));
+  solution_.feasible = !sums_.lost && sums_.primal < kFeasible * sums_.cost && errors_.norm() < kFeasible;
+}
+
+JointSolution JointNewton::Steps::run(const NewtonOptions& options) {
+  for (;; ++solution_.steps, assembled_ = false) {
+    if (!assembled_) look_at(options);
+    const double error = sums_.error();
+    if (solution_.converged || sums_.lost || !std::isfinite(error) || error < options.pause ||
+        solution_.steps == options.most_steps)
       break;
-    const bool settled = sums.complementarity < 0.05 * sums.cost && sums.primal < 0.01 * sums.cost &&
-                         0.1 * sums.dual < 0.05 * sums.cost;
-    if (settled && (sums.cost - sums.complementarity - 0.2 * sums.dual) / scale_ > options_.give_up_J) {
-      solution.feasible = false;
+    const bool settled = sums_.complementarity < 0.05 * sums_.cost && sums_.primal < 0.01 * sums_.cost &&
+                         0.1 * sums_.dual < 0.05 * sums_.cost;
+    if (settled && (sums_.cost - sums_.complementarity - 0.2 * sums_.dual) / scale_ > options.give_up_J) {
+      solution_.feasible = false;
       break;
     }
     direction();
     if (!dp_.allFinite() || !db_.allFinite()) break;
     search(step_rows());
     if (step_ < kStalled) break;
-    lower_barrier(sums);
+    lower_barrier(options.tolerance);
   }
-  solution.parameters = p_;
-  solution.squares = b_;
-  return solution;
+  solution_.parameters = p_;
+  solution_.squares = b_;
+  return solution_;
 }
 
-}  // namespace
+JointNewton::JointNewton(const Start& start, double gap, const VectorXd& squares)
+    : steps_(std::make_unique<Steps>(start, gap, squares)) {}
+JointNewton::JointNewton(JointNewton&&) noexcept = default;
+JointNewton::~JointNewton() = default;
 
-JointSolution solve(const Start& start, const NewtonOptions& options, const VectorXd& squares) {
-  return Newton(start, options, squares).run();
-}
+JointSolution JointNewton::run(const NewtonOptions& options) { return steps_->run(options); }
 
 }  // namespace joulepath::joint

@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments per piece
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
-constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
+constexpr double kGiveUp = 1.02, kHopeless = 1.025, kNearBest = 1.005, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
 constexpr double kFineTolerance = 1e-4;
 constexpr double kWarmGap = 0.05, kMarginGap = 0.01;  ///< NewtonOptions::gap from a solution
 constexpr int kMostSteps = 50;                        ///< of a start
+constexpr double kPause = 0.03;                       ///< NewtonOptions::pause of all starts
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
 
@@ -66,7 +67,7 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   if (dense) fine.start.program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
   fine.start.parameters = coarse.solution.parameters;
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
-  fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
+  fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
   counts.steps += fine.solution.steps;
   const bool better =
       fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
@@ -120,8 +121,8 @@ std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
     if (short_m == 0) return paths;
     candidate.start.program.margin_m += short_m + kMarginStep_m;
     candidate.start.parameters = candidate.solution.parameters;
-    const JointSolution again =
-        solve(candidate.start, {.tolerance = kFineTolerance, .gap = kMarginGap}, candidate.solution.squares);
+    const JointSolution again = JointNewton(candidate.start, kMarginGap, candidate.solution.squares)
+                                    .run({.tolerance = kFineTolerance});
     counts.steps += again.steps;
     if (!again.parameters.allFinite()) return std::nullopt;
     candidate.solution = again;
@@ -135,6 +136,52 @@ CurveSegment segment_of(const Program& program, const Piece& piece, const Pose& 
   Pose along = start;
   if (piece.sign < 0) along.heading_rad -= std::numbers::pi;
   return DirectionSegment(along, {phi(piece.from), phi(piece.to), length_m, program.half_track_m()});
+}
+
+/// All starts on the coarse grid, in the order of their cost. Each goes a part of its way; then the one that
+/// promises most goes on first, and the others only as long as they may become the best.
+std::vector<Candidate> explored(const JointQuery& query, const std::vector<std::vector<Sketch>>& starts,
+                                JointCounts& counts) {
+  struct Run {
+    Start start{};
+    JointNewton newton;
+    JointSolution solution{};
+  };
+  const double half_track_m = query.laws.front().half_track_m;
+  std::vector<Run> runs;
+  for (const std::vector<Sketch>& sketches : starts) {
+    Start start = assemble(sketches, query.goals, query.start, half_track_m, kCoarse);
+    start.program.laws = query.laws;
+    start.program.laws.insert(start.program.laws.end(), query.reverse_laws.begin(), query.reverse_laws.end());
+    start.program.checker = query.checker;
+    JointNewton newton(start);
+    JointSolution rough = newton.run({.most_steps = kMostSteps, .pause = kPause});
+    runs.push_back({std::move(start), std::move(newton), std::move(rough)});
+  }
+  std::vector<Run*> order;
+  for (Run& run : runs) order.push_back(&run);
+  std::stable_sort(order.begin(), order.end(), [](const Run* a, const Run* b) {
+    return std::isfinite(a->solution.cost_J) &&
+           !(b->solution.cost_J <= a->solution.cost_J);  // one that is no number stands last
+  });
+  std::vector<Candidate> found;
+  double best_J = kNoLimit, least_J = kNoLimit;
+  for (Run* run : order) {
+    if (run->solution.cost_J > kHopeless * least_J) break;
+    run->solution = run->newton.run({.most_steps = kMostSteps, .give_up_J = kGiveUp * best_J});
+    const JointSolution& solution = run->solution;
+    ++counts.starts;
+    counts.steps += solution.steps;
+    counts.failed += !solution.converged && !(solution.cost_J > kGiveUp * best_J);
+    if (!solution.feasible) continue;
+    if (solution.converged) best_J = std::min(best_J, solution.cost_J);
+    least_J = std::min(least_J, solution.cost_J);
+    found.push_back({std::move(run->start), std::move(run->solution)});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.solution.cost_J < b.solution.cost_J;
+  });
+  return found;
 }
 
 }  // namespace
@@ -168,32 +215,12 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
 std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<std::vector<Sketch>> starts,
                                          JointCounts* counted) {
   JointCounts counts;
-  const double half_track_m = query.laws.front().half_track_m;
-  std::vector<Candidate> found;
-  double best_J = kNoLimit;
-  for (const std::vector<Sketch>& sketches : starts) {
-    Candidate candidate{assemble(sketches, query.goals, query.start, half_track_m, kCoarse), {}};
-    candidate.start.program.laws = query.laws;
-    candidate.start.program.laws.insert(candidate.start.program.laws.end(), query.reverse_laws.begin(),
-                                        query.reverse_laws.end());
-    candidate.start.program.checker = query.checker;
-    candidate.solution = solve(candidate.start, {.most_steps = kMostSteps, .give_up_J = kGiveUp * best_J});
-    ++counts.starts;
-    counts.steps += candidate.solution.steps;
-    counts.failed += !candidate.solution.converged && !(candidate.solution.cost_J > kGiveUp * best_J);
-    if (!candidate.solution.feasible) continue;
-    if (candidate.solution.converged) best_J = std::min(best_J, candidate.solution.cost_J);
-    found.push_back(std::move(candidate));
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.solution.cost_J < b.solution.cost_J;
-  });
+  const std::vector<Candidate> found = explored(query, starts, counts);
   std::vector<JointPaths> best;
   double last_J = 0;
   for (const Candidate& candidate : found) {
     const double cost_J = candidate.solution.cost_J;
-    if (best.size() == kRefined || (cost_J > kNearBest * found.front().solution.cost_J && !best.empty()))
-      break;
+    if (best.size() == kRefined || (!best.empty() && cost_J > kNearBest * best.front().cost_J)) break;
     if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
     last_J = cost_J;
     if (auto paths = finished(refined(candidate, counts), counts)) best.push_back(std::move(*paths));
@@ -202,6 +229,16 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
                    [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
   if (counted) *counted = counts;
   return best;
+}
+
+std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
+                                            const std::vector<std::vector<Sketch>>& starts) {
+  JointCounts counts;
+  const std::vector<Candidate> found = explored(query, starts, counts);
+  if (found.empty()) return std::nullopt;
+  const auto& [start, solution] = found.front();
+  return JointPaths{paths_of(start.program, solution.parameters), solution.cost_J,
+                    sketches_of(start.program, solution.parameters)};
 }
 
 }  // namespace joulepath::joint

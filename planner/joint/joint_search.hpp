@@ -35,6 +35,11 @@ struct JointCounts {
                                                        std::vector<std::vector<Sketch>> starts,
                                                        JointCounts* counts = nullptr);
 
+/// The cheapest of the starts on the coarse grid alone: a start for a longer program, its paths meet their
+/// goals to percents.
+[[nodiscard]] std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
+                                                          const std::vector<std::vector<Sketch>>& starts);
+
 /// The paths of parameters, one per leg, turned and moved to the program's frame.
 [[nodiscard]] std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& parameters);
 

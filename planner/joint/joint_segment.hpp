@@ -33,8 +33,10 @@ inline double rounded_sign(double x, double width) { return std::tanh(x / width)
 /// Newton's method, narrow enough for the choice among curves.
 inline constexpr double kSignWidth = 0.04;
 
-/// Rows of a segment; each is a limit's unused share, >= 0: speed, lateral acceleration to both sides, yaw
-/// rate; then per end gain and loss of speed, yaw acceleration to both sides.
+/// Quantities of a segment that limits bound: squared speed, lateral acceleration and squared yaw rate at its
+/// end; then per end gain of speed in the direction of travel and yaw acceleration.
+inline constexpr std::size_t kSegmentQuantities = 7, kCapQuantities = 3;
+/// Rows of a segment; each is a limit's unused share, >= 0. The first ones hold at its end alone.
 inline constexpr std::size_t kSegmentRows = 12, kCapRows = 4;
 /// Variables of a segment: squares of dtau/dt at both ends, phi at both knots of its piece, the piece's
 /// length.
@@ -44,8 +46,49 @@ template <class Real>
 struct SegmentValues {
   std::array<Real, 2> energy_J{};  ///< of the channels of recovery: both motors, or their sum
   Real duration_s{};
-  std::array<Real, kSegmentRows> rows{};
+  std::array<Real, kSegmentQuantities> bounded{};
 };
+
+/// A row is 1 + slope x quantity.
+struct RowLaw {
+  std::size_t quantity{};
+  double slope{};
+};
+/// `sign`: 1 forward, -1 in reverse.
+inline std::array<RowLaw, kSegmentRows> row_laws(const Limits& most, int sign) {
+  const double lateral = 1 / most.lateral_acceleration_m_s2, turning = 1 / most.yaw_acceleration_rad_s2,
+               gain = sign / most.acceleration_m_s2, loss = sign / most.deceleration_m_s2;
+  return {{{0, -1 / (most.speed_m_s * most.speed_m_s)},
+           {1, -lateral},
+           {1, lateral},
+           {2, -1 / (most.yaw_rate_rad_s * most.yaw_rate_rad_s)},
+           {3, -gain},
+           {3, loss},
+           {4, -turning},
+           {4, turning},
+           {5, -gain},
+           {5, loss},
+           {6, -turning},
+           {6, turning}}};
+}
+
+/// constant + sum of weight x term, in one pass over the derivatives.
+template <std::size_t K>
+double linear(double constant, const std::array<double, K>& weight, const std::array<const double*, K>& of) {
+  for (std::size_t k = 0; k < K; ++k) constant += weight[k] * *of[k];
+  return constant;
+}
+template <std::size_t N, std::size_t K>
+nlp::JetOf<N> linear(double constant, const std::array<double, K>& weight,
+                     const std::array<const nlp::JetOf<N>*, K>& of) {
+  nlp::JetOf<N> sum(constant);
+  for (std::size_t k = 0; k < K; ++k) sum.value += weight[k] * of[k]->value;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t k = 0; k < K; ++k) sum.d[i] += weight[k] * of[k]->d[i];
+  for (std::size_t i = 0; i < sum.dd.size(); ++i)
+    for (std::size_t k = 0; k < K; ++k) sum.dd[i] += weight[k] * of[k]->dd[i];
+  return sum;
+}
 
 /// Motion along a piece: A = ds/dtau and W = d heading/dtau are linear in the share f of its length.
 template <class Real>
@@ -64,22 +107,24 @@ PieceRates<Real> piece_rates(const Real& from_rad, const Real& to_rad, double ha
 template <class Real>
 Real motor_power_W(const WheelLaw& law, const BodyMotion<Real>& body, const Real& sign) {
   const Real &v = body.speed_m_s, &w = body.yaw_rate_rad_s;
-  Real current_A = law.constant + law.sign * sign + law.speed * v + law.yaw_rate * w +
-                   law.acceleration * body.acceleration_m_s2 +
-                   law.yaw_acceleration * body.yaw_acceleration_rad_s2;
+  Real current_A = linear(
+      law.constant, std::array{law.sign, law.speed, law.yaw_rate, law.acceleration, law.yaw_acceleration},
+      std::array{&sign, &v, &w, &body.acceleration_m_s2, &body.yaw_acceleration_rad_s2});
   if (law.yaw_rate_squared != 0) current_A += law.yaw_rate_squared * (w * w);
   if (law.speed_by_yaw_rate != 0) current_A += law.speed_by_yaw_rate * (v * w);
-  Real voltage_V = law.resistance * current_A + law.emf_speed * v + law.emf_yaw_rate * w + law.emf;
-  if (law.emf_sign != 0) voltage_V += law.emf_sign * sign;
+  const Real* const current = &current_A;
+  const Real voltage_V =
+      linear(law.emf, std::array{law.resistance, law.emf_speed, law.emf_yaw_rate, law.emf_sign},
+             std::array{current, &v, &w, &sign});
   return voltage_V * current_A;
 }
 
-/// Energy, duration and rows of the part [f0, f1] of a piece: the square of dtau/dt is linear in tau, two
-/// Gauss-Legendre points in time, as in the program of a given path
+/// Energy, duration and bounded quantities of the part [f0, f1] of a piece: the square of dtau/dt is linear
+/// in tau, two Gauss-Legendre points in time, as in the program of a given path
 /// (planner/nlp/transcription/formulation.hpp).
 template <class Real>
-void evaluate_segment(const DriveLaw& law, int sign, const std::array<Real, kSegmentVariables>& x, double f0,
-                      double f1, SegmentValues<Real>& out) {
+void evaluate_segment(const DriveLaw& law, const std::array<Real, kSegmentVariables>& x, double f0, double f1,
+                      SegmentValues<Real>& out) {
   using std::sqrt;
   const auto& [b0, b1, from_rad, to_rad, length_m] = x;
   const PieceRates<Real> rates = piece_rates(from_rad, to_rad, law.half_track_m);
@@ -101,23 +146,15 @@ void evaluate_segment(const DriveLaw& law, int sign, const std::array<Real, kSeg
     }
   }
   for (Real& energy : out.energy_J) energy = energy * out.duration_s * 0.5;
-  const Limits& most = law.limits;
-  const Real A1 = rates.A(f1), W1 = rates.W(f1),
-             lateral = A1 * W1 * b1 * (1 / most.lateral_acceleration_m_s2);
-  out.rows[0] = 1.0 - A1 * A1 * b1 * (1 / (most.speed_m_s * most.speed_m_s));
-  out.rows[1] = 1.0 - lateral;
-  out.rows[2] = 1.0 + lateral;
-  out.rows[3] = 1.0 - W1 * W1 * b1 * (1 / (most.yaw_rate_rad_s * most.yaw_rate_rad_s));
+  const Real A1 = rates.A(f1), W1 = rates.W(f1), speed = A1 * b1;
+  out.bounded[0] = A1 * speed;
+  out.bounded[1] = W1 * speed;
+  out.bounded[2] = W1 * W1 * b1;
   for (std::size_t end = 0; end < 2; ++end) {
     const Real& b = end == 0 ? b0 : b1;
     const double f = end == 0 ? f0 : f1;
-    const Real gained = (rates.A(f) * a + A_slope * b) * sign;
-    const Real turned = (rates.W(f) * a + W_slope * b) * (1 / most.yaw_acceleration_rad_s2);
-    Real* row = &out.rows[kCapRows + 4 * end];
-    row[0] = 1.0 - gained * (1 / most.acceleration_m_s2);
-    row[1] = 1.0 + gained * (1 / most.deceleration_m_s2);
-    row[2] = 1.0 - turned;
-    row[3] = 1.0 + turned;
+    out.bounded[3 + 2 * end] = rates.A(f) * a + A_slope * b;
+    out.bounded[4 + 2 * end] = rates.W(f) * a + W_slope * b;
   }
 }
 

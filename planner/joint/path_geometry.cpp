@@ -87,41 +87,57 @@ LocalPose PathGeometry::local(std::size_t piece, double share) const {
   return {d.x, d.y, d.turn};
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, 3> PathGeometry::gradient(std::size_t piece,
-                                                                const LocalPose& at) const {
-  const auto j = static_cast<Eigen::Index>(piece);
+PoseSlopes PathGeometry::slopes(std::size_t piece, const LocalPose& at) const {
   const double heading = starts_[piece].heading_rad, c = std::cos(heading), s = std::sin(heading);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> gradient(dx_.rows(), 3);
-  gradient.col(0) = dx_.col(j) - (s * at.x.value + c * at.y.value) * dheading_.col(j);
-  gradient.col(1) = dy_.col(j) + (c * at.x.value - s * at.y.value) * dheading_.col(j);
-  gradient.col(2) = dheading_.col(j);
-  const auto index = own(piece);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto row = index[i];
-    gradient(row, 0) += c * at.x.d[i] - s * at.y.d[i];
-    gradient(row, 1) += s * at.x.d[i] + c * at.y.d[i];
-    gradient(row, 2) += at.turn.d[i];
+  PoseSlopes slopes = PoseSlopes::Zero();
+  slopes.leftCols<3>().setIdentity();
+  slopes(0, 2) = -(s * at.x.value + c * at.y.value);
+  slopes(1, 2) = c * at.x.value - s * at.y.value;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    slopes(0, 3 + i) = c * at.x.d[k] - s * at.y.d[k];
+    slopes(1, 3 + i) = s * at.x.d[k] + c * at.y.d[k];
+    slopes(2, 3 + i) = at.turn.d[k];
   }
-  return gradient;
+  return slopes;
+}
+
+/// With F = l . R(h) (x, y), h the heading at the piece's start:  F_hh = -F,  F_h the same of (-y, x).
+PieceHessian PathGeometry::curvature(std::size_t piece, const LocalPose& at,
+                                     const Eigen::Vector3d& multiplier) const {
+  const double heading = starts_[piece].heading_rad, c = std::cos(heading), s = std::sin(heading);
+  const double mx = multiplier[0] * c + multiplier[1] * s, my = multiplier[1] * c - multiplier[0] * s;
+  PieceHessian hessian = PieceHessian::Zero();
+  hessian(2, 2) = -(mx * at.x.value + my * at.y.value);
+  for (Eigen::Index i = 0, k = 0; i < 3; ++i) {
+    const auto of = static_cast<std::size_t>(i);
+    hessian(3 + i, 2) = hessian(2, 3 + i) = my * at.x.d[of] - mx * at.y.d[of];
+    for (Eigen::Index n = 0; n <= i; ++n, ++k) {
+      const auto at_k = static_cast<std::size_t>(k);
+      hessian(3 + i, 3 + n) = hessian(3 + n, 3 + i) =
+          mx * at.x.dd[at_k] + my * at.y.dd[at_k] + multiplier[2] * at.turn.dd[at_k];
+    }
+  }
+  return hessian;
 }
 
 void PathGeometry::differentiate(const Eigen::VectorXd& parameters) {
   place(parameters);
-  const Eigen::Index rows = program_.parameters(), count = static_cast<Eigen::Index>(program_.pieces.size());
-  dx_.setZero(rows, count + 1);
-  dy_.setZero(rows, count + 1);
-  dheading_.setZero(rows, count + 1);
+  const std::size_t count = program_.pieces.size();
+  starts_gradient_.setZero(program_.parameters(), 3 * static_cast<Eigen::Index>(count) + 3);
   whole_.clear();
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const auto piece = static_cast<std::size_t>(j);
-    whole_.push_back(local(piece, 1));
-    const auto next = gradient(piece, whole_.back());
-    dx_.col(j + 1) = next.col(0);
-    dy_.col(j + 1) = next.col(1);
-    dheading_.col(j + 1) = next.col(2);
+  whole_by_.clear();
+  for (std::size_t j = 0; j < count; ++j) {
+    whole_.push_back(local(j, 1));
+    whole_by_.push_back(slopes(j, whole_.back()));
+    const auto start = static_cast<Eigen::Index>(3 * j);
+    const PoseSlopes& by = whole_by_.back();
+    auto next = starts_gradient_.middleCols<3>(start + 3);
+    next.noalias() = starts_gradient_.middleCols<3>(start) * by.leftCols<3>().transpose();
+    const auto index = own(j);
+    for (Eigen::Index i = 0; i < 3; ++i) next.row(index[static_cast<std::size_t>(i)]) += by.col(3 + i);
   }
-  behind_.assign(program_.pieces.size(), {});
-  turned_by_.assign(program_.pieces.size(), 0.0);
+  sums_.assign(count, {});
 }
 
 Eigen::VectorXd PathGeometry::errors() const {
@@ -135,87 +151,83 @@ Eigen::VectorXd PathGeometry::errors() const {
 }
 
 Eigen::MatrixXd PathGeometry::error_gradient() const {
-  Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(program_.targets.size()), dx_.rows());
+  Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(program_.targets.size()), starts_gradient_.rows());
   Eigen::Index row = 0;
   for (const Target& target : program_.targets) {
-    const auto end = static_cast<Eigen::Index>(target.piece) + 1;
-    rows.row(row++) = dx_.col(end).transpose();
-    rows.row(row++) = dy_.col(end).transpose();
-    if (target.heading_rad) rows.row(row++) = dheading_.col(end).transpose();
+    const Eigen::Index count = target.heading_rad ? 3 : 2;
+    rows.middleRows(row, count) = end_gradient(target.piece).leftCols(count).transpose();
+    row += count;
   }
   return rows.topRows(row);
 }
 
-Eigen::MatrixXd PathGeometry::displacement_metric() const {
-  return (dx_ * dx_.transpose() + dy_ * dy_.transpose()) / static_cast<double>(program_.pieces.size());
-}
-
-/// With F = l . R(heading) (x, y):  D2 F = -F dh dh' + dF_h dh' + dh dF_h' + l . R D2(x, y), where h is the
-/// heading at the piece's start. Returns dF/dh.
-double PathGeometry::add_own_curvature(std::size_t piece, const LocalPose& at, double lx, double ly,
-                                       Eigen::MatrixXd& hessian) const {
-  const double heading = starts_[piece].heading_rad, c = std::cos(heading), s = std::sin(heading);
-  const double mx = lx * c + ly * s, my = ly * c - lx * s;  // the multiplier in the piece's frame
-  const auto dh = dheading_.col(static_cast<Eigen::Index>(piece));
-  hessian.noalias() -= (mx * at.x.value + my * at.y.value) * dh * dh.transpose();
-  const auto index = own(piece);
-  for (std::size_t i = 0, k = 0; i < 3; ++i) {
-    const auto row = index[i];
-    const double mixed = my * at.x.d[i] - mx * at.y.d[i];
-    hessian.row(row) += mixed * dh.transpose();
-    hessian.col(row) += mixed * dh;
-    for (std::size_t n = 0; n <= i; ++n, ++k) {
-      const auto column = index[n];
-      const double own_part = mx * at.x.dd[k] + my * at.y.dd[k];
-      hessian(row, column) += own_part;
-      if (n < i) hessian(column, row) += own_part;
-    }
-  }
-  return my * at.x.value - mx * at.y.value;
-}
-
-void PathGeometry::add_curvature(std::size_t piece, const LocalPose& at, const PoseMultiplier& multiplier,
-                                 Eigen::MatrixXd& hessian) {
-  turned_by_[piece] += add_own_curvature(piece, at, multiplier.x, multiplier.y, hessian) + multiplier.heading;
-  behind_[piece].x += multiplier.x;
-  behind_[piece].y += multiplier.y;
-  if (multiplier.heading == 0) return;
-  const auto index = own(piece);
-  for (std::size_t i = 0, k = 0; i < 3; ++i)
-    for (std::size_t n = 0; n <= i; ++n, ++k) {
-      const auto row = index[i], column = index[n];
-      hessian(row, column) += multiplier.heading * at.turn.dd[k];
-      if (n < i) hessian(column, row) += multiplier.heading * at.turn.dd[k];
-    }
-}
-
-void PathGeometry::finish_curvature(const Eigen::VectorXd& target_multipliers, Eigen::MatrixXd& hessian) {
-  const std::size_t count = program_.pieces.size();
-  std::vector<PoseMultiplier> at_end(count);
-  Eigen::Index row = 0;
-  for (const Target& target : program_.targets) {
-    at_end[target.piece].x += target_multipliers[row++];
-    at_end[target.piece].y += target_multipliers[row++];
-    if (target.heading_rad) at_end[target.piece].heading += target_multipliers[row++];
-  }
-  double lx = 0, ly = 0, turned = 0;
-  for (std::size_t j = count; j-- > 0;) {
-    lx += at_end[j].x;
-    ly += at_end[j].y;
-    turned += at_end[j].heading;
-    const LocalPose& whole = whole_[j];
-    const double here = add_own_curvature(j, whole, lx, ly, hessian);
+/// Adds the second derivatives of a sum over the pieces: `pieces` of their starts and own parameters, `end`
+/// of the end of the path. Backward, the starts' block holds all that depends on the pieces behind.
+void PathGeometry::add_condensed(const std::vector<PieceHessian>& pieces, const Eigen::Matrix3d& end,
+                                 Eigen::MatrixXd& hessian) const {
+  Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
+  Eigen::Matrix3d behind = end;
+  for (std::size_t j = pieces.size(); j-- > 0;) {
+    const PieceHessian all = pieces[j] + whole_by_[j].transpose() * behind * whole_by_[j];
+    behind = all.topLeftCorner<3, 3>();
+    const auto before = starts_gradient_.middleCols<3>(3 * static_cast<Eigen::Index>(j));
     const auto index = own(j);
-    for (std::size_t i = 0, k = 0; i < 3; ++i)
-      for (std::size_t n = 0; n <= i; ++n, ++k) {
-        const auto r = index[i], c = index[n];
-        hessian(r, c) += turned * whole.turn.dd[k];
-        if (n < i) hessian(c, r) += turned * whole.turn.dd[k];
-      }
-    turned += here + turned_by_[j];
-    lx += behind_[j].x;
-    ly += behind_[j].y;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Eigen::Index column = index[static_cast<std::size_t>(i)];
+      mixed.col(column).noalias() += before * all.block<3, 1>(0, 3 + i);
+      for (Eigen::Index n = 0; n < 3; ++n)
+        hessian(column, index[static_cast<std::size_t>(n)]) += all(3 + i, 3 + n);
+    }
   }
+  hessian += mixed + mixed.transpose();
+}
+
+Eigen::MatrixXd PathGeometry::displacement_metric() const {
+  Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(starts_gradient_.rows(), starts_gradient_.rows());
+  const double share = 1 / static_cast<double>(program_.pieces.size());
+  const Eigen::Matrix3d place = Eigen::Vector3d(share, share, 0).asDiagonal();
+  PieceHessian at_start = PieceHessian::Zero();
+  at_start.topLeftCorner<3, 3>() = place;
+  add_condensed(std::vector<PieceHessian>(program_.pieces.size(), at_start), place, metric);
+  return metric;
+}
+
+void PathGeometry::add_sums(const Eigen::VectorXd& target_multipliers, Eigen::VectorXd& gradient,
+                            Eigen::VectorXd& lagrangian, Eigen::MatrixXd& hessian) const {
+  const std::size_t count = program_.pieces.size();
+  std::vector<Eigen::Vector3d> at_end(count, Eigen::Vector3d::Zero());
+  Eigen::Index row = 0;
+  for (const Target& target : program_.targets)
+    for (Eigen::Index i = 0; i < (target.heading_rad ? 3 : 2); ++i)
+      at_end[target.piece][i] += target_multipliers[row++];
+  std::vector<PieceHessian> hessians(count);
+  Eigen::Vector3d behind = Eigen::Vector3d::Zero(), multiplier = behind;
+  for (std::size_t j = count; j-- > 0;) {
+    multiplier += at_end[j];
+    hessians[j] = sums_[j].hessian + curvature(j, whole_[j], multiplier);
+    const PieceGradient slope = sums_[j].gradient + whole_by_[j].transpose() * behind;
+    const PieceGradient weighted = sums_[j].lagrangian + whole_by_[j].transpose() * multiplier;
+    behind = slope.head<3>();
+    multiplier = weighted.head<3>();
+    const auto index = own(j);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      gradient[index[static_cast<std::size_t>(i)]] += slope[3 + i];
+      lagrangian[index[static_cast<std::size_t>(i)]] += weighted[3 + i];
+    }
+  }
+  add_condensed(hessians, Eigen::Matrix3d::Zero(), hessian);
+}
+
+std::vector<PieceGradient> PathGeometry::changes(const Eigen::VectorXd& parameters) const {
+  std::vector<PieceGradient> changes;
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
+    const auto [a, b, l] = own(j);
+    changes.emplace_back();
+    changes.back() << start, parameters[a], parameters[b], parameters[l];
+    start = whole_by_[j] * changes.back();
+  }
+  return changes;
 }
 
 }  // namespace joulepath::joint

@@ -23,12 +23,13 @@ void Regularization::adapt(double step, int halvings) {
   value_ = std::clamp(value_, kLeastWeight, kMostWeight);
 }
 
-VectorXd descent(const MatrixXd& hessian, const MatrixXd& metric, double regularization,
+VectorXd descent(const MatrixXd& damped, const std::function<MatrixXd()>& make_metric, double regularization,
                  const VectorXd& right) {
-  const Eigen::LLT<MatrixXd> convex(hessian + regularization * metric);
+  const Eigen::LLT<MatrixXd> convex(damped);
   if (convex.info() == Eigen::Success) return convex.solve(right);
+  const MatrixXd metric = make_metric();
   const Eigen::LLT<MatrixXd> root(metric);
-  const MatrixXd half = root.matrixL().solve(hessian);
+  const MatrixXd half = root.matrixL().solve(damped - regularization * metric);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> in_metric(root.matrixL().solve(half.transpose()));
   const VectorXd sizes = in_metric.eigenvalues().cwiseAbs().array() + regularization;
   const VectorXd along = in_metric.eigenvectors().transpose() * root.matrixL().solve(right);

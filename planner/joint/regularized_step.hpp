@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 
 // Design: docs/decisions/0212-joint-path-and-speed.md
 // Method: [NocedalWright2006]
@@ -21,9 +22,10 @@ class Regularization {
 /// The step of a quadratic model with the Hessian plus `regularization` times the metric; right = -gradient.
 /// Where that sum is not positive definite, the sizes of the Hessian's eigenvalues in the metric count
 /// ([NocedalWright2006], 3.4): a saddle repels, and the other directions keep their steps, which a larger
-/// regularization would shorten. `hessian`, `metric`: symmetric [n x n], the metric positive definite;
-/// `right`: [n].
-[[nodiscard]] Eigen::VectorXd descent(const Eigen::MatrixXd& hessian, const Eigen::MatrixXd& metric,
-                                      double regularization, const Eigen::VectorXd& right);
+/// regularization would shorten. `damped`: the sum, symmetric [n x n]; `metric`: makes the metric, positive
+/// definite [n x n], only asked for where the sum is not; `right`: [n].
+[[nodiscard]] Eigen::VectorXd descent(const Eigen::MatrixXd& damped,
+                                      const std::function<Eigen::MatrixXd()>& metric, double regularization,
+                                      const Eigen::VectorXd& right);
 
 }  // namespace joulepath::joint

@@ -65,7 +65,7 @@ void follow_waypoints(const Program& program, VectorXd& p) {
     for (Index i = 0; i < rows; i += 3) {
       const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i / 3)];
       const Pose there = geometry.pose(waypoint.piece, 1);
-      const auto slope = geometry.gradient(waypoint.piece, geometry.local(waypoint.piece, 1));
+      const auto slope = geometry.end_gradient(waypoint.piece);
       off.segment<2>(i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
       slopes.middleRows<2>(i) = slope.leftCols<2>().transpose();
       if (!waypoint.heading_rad) continue;

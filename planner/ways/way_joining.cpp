@@ -233,13 +233,18 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
                                 .laws = {query.laws[i]},
                                 .reverse_laws = {query.reverse_laws[i]},
                                 .checker = query.checker};
-    auto [forward, backward] = joint_starts(first + i, leg);
-    append_all(forward, turning_paths(first + i, leg));
-    auto found = joint::best_joint_paths(leg, std::move(forward));
-    if (found.empty()) found = joint::best_joint_paths(leg, std::move(backward));
-    if (found.empty()) return {};
-    legs.push_back(std::move(found.front().sketches.front()));
-    from = found.front().legs.front().end();
+    std::optional<joint::JointPaths> found;
+    if (const auto& known = parts_[first + i].sketch) {
+      found = joint::best_coarse_paths(leg, {{*known}});
+    } else {
+      auto [forward, backward] = joint_starts(first + i, leg);
+      append_all(forward, turning_paths(first + i, leg));
+      found = joint::best_coarse_paths(leg, forward);
+      if (!found) found = joint::best_coarse_paths(leg, backward);
+    }
+    if (!found) return {};
+    legs.push_back(std::move(found->sketches.front()));
+    from = found->legs.front().end();
   }
   return {legs};
 }
@@ -274,6 +279,7 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
     part.path = joined.legs[i];
     part.leaves_rad = part.path.start().heading_rad;
     part.arrives_rad = part.path.end().heading_rad;
+    part.sketch = joined.sketches[i];
     part.refined = true;
     part.barred = false;
   }
@@ -328,7 +334,9 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     const FreeSpace& room = run_.contexts[k].space->any_heading();
-    from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path), joint::Turns::as_arcs));
+    from_present.push_back(
+        parts_[k].sketch ? *parts_[k].sketch
+                         : joint::along_path(path, half_track_m, pieces_for(path), joint::Turns::as_arcs));
     for (const Pose& end : {path.start(), path.end()})
       tight = tight || (turns_in_place(path) && is_tight(room, end.x_m, end.y_m));
     barred = barred || parts_[k].barred;

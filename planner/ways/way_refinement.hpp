@@ -41,6 +41,7 @@ class RefinedRun {
     bool turns_at_goal{};  ///< turns after arrival to the heading in which the next leg leaves (or to that of
                            ///< the station)
     bool refined{};
+    std::optional<joint::Sketch> sketch{};  ///< of a refined path
     bool barred{};
   };
   std::optional<double> heading_before(std::size_t k) const;

@@ -107,21 +107,27 @@ TEST(JointGeometry, SecondDerivativesAreThoseOfDifferences) {
   const Program program = bent_program(law_of(even_nomad()));
   const Eigen::VectorXd p = bent_parameters();
   const Eigen::VectorXd lambda = (Eigen::VectorXd(5) << 1.3, -0.7, 0.4, 2.0, -1.1).finished();
-  const PoseMultiplier inside{0.8, -0.5, 0.9};
+  const Eigen::Vector3d inside{0.8, -0.5, 0.9};
   constexpr std::size_t kPiece = 1;
   constexpr double kShare = 0.6, h = 1e-6;
   const auto slope = [&](const Eigen::VectorXd& at) {
     PathGeometry geometry(program);
     geometry.differentiate(at);
-    const auto place = geometry.gradient(kPiece, geometry.local(kPiece, kShare));
-    return Eigen::VectorXd(geometry.error_gradient().transpose() * lambda + inside.x * place.col(0) +
-                           inside.y * place.col(1) + inside.heading * place.col(2));
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(p.size()), lagrangian = gradient;
+    Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(p.size(), p.size());
+    geometry.sums(kPiece).lagrangian =
+        geometry.slopes(kPiece, geometry.local(kPiece, kShare)).transpose() * inside;
+    geometry.add_sums(lambda, gradient, lagrangian, hessian);
+    return lagrangian;
   };
   PathGeometry geometry(program);
   geometry.differentiate(p);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(p.size()), lagrangian = gradient;
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(p.size(), p.size());
-  geometry.add_curvature(kPiece, geometry.local(kPiece, kShare), inside, hessian);
-  geometry.finish_curvature(lambda, hessian);
+  const LocalPose local = geometry.local(kPiece, kShare);
+  geometry.sums(kPiece).lagrangian = geometry.slopes(kPiece, local).transpose() * inside;
+  geometry.sums(kPiece).hessian = geometry.curvature(kPiece, local, inside);
+  geometry.add_sums(lambda, gradient, lagrangian, hessian);
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     Eigen::VectorXd up = p, down = p;
     up[i] += h;
@@ -155,7 +161,7 @@ void expect_derivatives_of_differences(const Eigen::VectorXd& p) {
   start.place(p);
   ClearanceRows rows(program);
   rows.lay_out(p);
-  rows.begin(rows.values(start), kMu);
+  rows.begin(rows.nearest(start), kMu);
   struct Sums {
     Eigen::VectorXd gradient, lagrangian;
     Eigen::MatrixXd hessian;
@@ -164,8 +170,10 @@ void expect_derivatives_of_differences(const Eigen::VectorXd& p) {
     Sums sums{Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5), Eigen::MatrixXd::Zero(5, 5)};
     PathGeometry geometry(program);
     geometry.differentiate(at);
-    rows.assemble(geometry, kMu, {sums.gradient, sums.lagrangian, sums.hessian});
-    geometry.finish_curvature({}, sums.hessian);
+    ClearanceRows there = rows;
+    there.take(rows.nearest(geometry), 0, 0, kMu);
+    there.assemble(geometry, kMu);
+    geometry.add_sums({}, sums.gradient, sums.lagrangian, sums.hessian);
     return sums;
   };
   const Eigen::MatrixXd hessian = sums_at(p).hessian;
@@ -175,7 +183,8 @@ void expect_derivatives_of_differences(const Eigen::VectorXd& p) {
     differences.col(i) = (sums_at(p + step).lagrangian - sums_at(p - step).lagrangian) / (2 * h);
   }
   // The rows of one corner have one gradient g, slack s and multiplier z: their stiffness is z / s g g'.
-  const std::vector<double> slacks = rows.values(start);
+  std::vector<double> slacks;
+  for (const ClearanceRows::Nearest& at : rows.nearest(start)) slacks.push_back(at.slack_m);
   const double least = *std::min_element(slacks.begin(), slacks.end());
   const auto at_corner = static_cast<double>(
       std::count_if(slacks.begin(), slacks.end(), [&](double slack) { return slack < least + 1e-6; }));
@@ -199,17 +208,17 @@ TEST(JointSegment, DerivativesAreThoseOfDifferences) {
   const std::array<double, kSegmentVariables> x{0.2, 0.25, 0.7, -0.4, 0.8};
   const auto values = [&](const std::array<double, kSegmentVariables>& at) {
     SegmentValues<double> out;
-    evaluate_segment(law, 1, at, 0.2, 0.4, out);
+    evaluate_segment(law, at, 0.2, 0.4, out);
     std::vector<double> all{out.energy_J[0], out.energy_J[1], out.duration_s};
-    all.insert(all.end(), out.rows.begin(), out.rows.end());
+    all.insert(all.end(), out.bounded.begin(), out.bounded.end());
     return all;
   };
   std::array<Jet, kSegmentVariables> variables;
   for (std::size_t i = 0; i < x.size(); ++i) variables[i] = Jet::variable(i, x[i]);
   SegmentValues<Jet> out;
-  evaluate_segment(law, 1, variables, 0.2, 0.4, out);
+  evaluate_segment(law, variables, 0.2, 0.4, out);
   std::vector<Jet> exact{out.energy_J[0], out.energy_J[1], out.duration_s};
-  exact.insert(exact.end(), out.rows.begin(), out.rows.end());
+  exact.insert(exact.end(), out.bounded.begin(), out.bounded.end());
   constexpr double h = 1e-4;
   const auto moved = [&](std::size_t i, double di, std::size_t j, double dj) {
     auto at = x;
@@ -499,11 +508,13 @@ TEST(RegularizedStep, ASaddleRepelsAndOtherAxesKeepTheirSteps) {
   const Eigen::Matrix3d hessian = root * axes * curvature.asDiagonal() * axes.transpose() * root.transpose();
   const Eigen::Vector3d right = root * axes * along;
   const double regularization = 0.1;
-  const Eigen::Vector3d step = descent(hessian, metric, regularization, right);
+  const Eigen::Vector3d step = descent(
+      hessian + regularization * metric, [&] { return Eigen::MatrixXd(metric); }, regularization, right);
   const Eigen::Vector3d in_axes = axes.transpose() * root.transpose() * step;
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(in_axes[i], along[i] / (std::abs(curvature[i]) + regularization), 1e-12) << i;
-  const Eigen::VectorXd convex = descent(hessian, metric, 2.5, right);
+  const Eigen::VectorXd convex = descent(
+      hessian + 2.5 * metric, [&] { return Eigen::MatrixXd(metric); }, 2.5, right);
   EXPECT_LT((hessian * convex + 2.5 * metric * convex - right).norm(), 1e-12);
 }
 
