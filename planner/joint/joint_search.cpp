@@ -15,7 +15,7 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kHopeless = 1.025, kNearBest = 1.005, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
-constexpr double kFineTolerance = 1e-4;
+constexpr double kFineTolerance = 3e-4;
 constexpr double kWarmGap = 0.05, kMarginGap = 0.01;  ///< NewtonOptions::gap from a solution
 constexpr int kMostSteps = 50;                        ///< of a start
 constexpr double kPause = 0.03;                       ///< NewtonOptions::pause of all starts
