@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "model/config_error.hpp"
@@ -303,13 +304,28 @@ class ConfidentPlanner {
       Infeasibility& reason = refused.infeasibility->reason;
       if (offers_) offer_whole_limits(reason);
       reason.message = "with " + percent(confidence_) + ": " + reason.message +
-                       "; the plan without margins keeps its promises with " +
+                       measured_with_margin(refused) + "; the plan without margins keeps its promises with " +
                        percent(account_.kept_without) + " of the draws, which shows " +
                        percent(shown_without());
       refused.message = reason.message;
     }
     refused.confidence = account_;
     return refused;
+  }
+
+  /// Heat and charge of a refused plan are measured against the robot file's limits less their margins.
+  std::string measured_with_margin(const Plan& refused) const {
+    std::ostringstream text;
+    text.precision(3);
+    const std::string& limit = refused.infeasibility->reason.constraint;
+    if (limit == kWindingTemperature && refused.winding) {
+      const WindingThermal& thermal = *world_.robot.motor[refused.winding->side].thermal;
+      text << ", less a margin of "
+           << (1 - margins_.share[kWindingLimit]) * (thermal.max_winding_C - thermal.ambient_C) << " K";
+    } else if (limit == "battery_reserve" && margins_.reserve > 0) {
+      text << ", the reserve with a margin of " << 100 * margins_.reserve << " % of the capacity";
+    }
+    return text.str();
   }
 
   double shown_without() const {
