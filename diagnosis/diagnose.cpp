@@ -14,9 +14,11 @@
 #include "diagnosis/evidence/another_robot.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
+#include "diagnosis/evidence/velocity_filter_search.hpp"
 #include "diagnosis/next_run/next_run.hpp"
 #include "diagnosis/simulator/simulated_runs.hpp"
 #include "diagnosis/where/localize.hpp"
+#include "model/effects/catalog.hpp"
 #include "model/progress.hpp"
 
 namespace joulepath {
@@ -100,9 +102,10 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
                      std::size_t bootstrap) {
   const auto& [judged, named, unknowns, depends_on, judgment_notes, sizes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
-  const auto [verdict, detectable_percent, all_clear_note] =
+  const auto [verdict, detectable_percent, hard_to_see, all_clear_note] =
       examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
   gap.energy.detectable_percent = detectable_percent;
+  gap.energy.hard_to_see = hard_to_see;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
   return {.gap = gap,
@@ -238,14 +241,40 @@ Diagnosis diagnose_sorted(const Dataset& dataset, RunsByUse runs, std::vector<Da
   return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
 }
 
-/// Of the robot against the file's model.
-Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
-  RunsByUse runs = sort_runs(dataset);
+/// The wheel speeds are late: whether by a clock or by a filter these runs do not tell.
+std::vector<std::string> note_of_delay(const std::vector<Cause>& causes, const LateSpeeds& late) {
+  for (const Cause& cause : causes)
+    if (const EffectDescription* effect = find_effect(cause.effect.name);
+        late.filter_fits_too && effect->delays_channels && cause.parameters.front().value < 0)
+      return {"the wheel speeds are late by " +
+              std::to_string(std::lround(-1000 * cause.parameters.front().value)) +
+              " ms: a clock offset and a filter of that time constant fit alike"};
+  return {};
+}
+
+Diagnosis diagnose_sound(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& options) {
   std::vector<DataCheck> checks = check_data(dataset, runs);
   AnotherRobot another = another_robot(dataset, runs, checks);
   Diagnosis d =
       diagnose_sorted(dataset, std::move(runs), std::move(checks), std::move(another.constants), options);
   d.notes.insert(d.notes.begin(), another.notes.begin(), another.notes.end());
+  return d;
+}
+
+/// Of the robot against the file's model. Where a filter smoothed the wheel speeds, all channels are read
+/// behind it.
+Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
+  RunsByUse runs = sort_runs(dataset);
+  const LateSpeeds late = examine_late_speeds(runs.diagnosis);
+  if (late.filter_s == 0) {
+    Diagnosis d = diagnose_sound(dataset, std::move(runs), options);
+    d.notes = joined({d.notes, note_of_delay(d.causes, late)});
+    return d;
+  }
+  Dataset filtered = dataset;
+  for (Run& run : filtered.runs) run.velocity_filter_s = late.filter_s;
+  Diagnosis d = diagnose_sound(filtered, sort_runs(filtered), options);
+  d.velocity_filter_s = late.filter_s;
   return d;
 }
 

@@ -367,6 +367,16 @@ inline constexpr double kLatestReading_s = 0.4;
 inline constexpr double kDelayStep_s = 0.02;
 /// Share of the windings' sum of squares that a delay must explain. Chosen.
 inline constexpr double kNotableDelayGain = 0.15;
+/// Longest filter of wheel speeds that is sought. Physical scale.
+inline constexpr double kLongestFilter_s = 0.25;
+/// Step of the delay beside it. Declared: bounds time.
+inline constexpr double kFineDelayStep_s = 0.005;
+/// Share of the sum of squares behind a delay that the filter must explain. Chosen: 0.36 to 0.97 on days with
+/// a filter, at most 0.1 on others (0501).
+inline constexpr double kNotableFilterGain = 0.25;
+/// Share of the accelerations' sum of squares that currents and speeds do not follow: with less, noise of the
+/// current passes for a filter, or for a part of one. Chosen: at most 0.017 on such days, else 0.05 (0501).
+inline constexpr double kLeastOwnSlope = 0.03;
 
 // Materiality: what a user would notice.
 
@@ -439,6 +449,8 @@ inline constexpr double kLoading_s = 10.0;
 inline constexpr double kShareSeen = 0.9;
 /// Runs that would not show a greater gap are too few. Declared.
 inline constexpr double kGreatestUnseen_percent = 10.0;
+/// An all-clear names effects whose gap of this size the runs would not show. Declared.
+inline constexpr double kNotedUnseen_percent = 3.0;
 /// Effects whose usual size changes less of the energy are no gap of energy. Chosen (0506).
 inline constexpr double kLeastEnergyOfStep = 0.002;
 

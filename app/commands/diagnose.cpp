@@ -97,7 +97,8 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << diagnosis_meaning(d)
       << ' ' << next_step(d) << '\n';
   if (const std::string simulator = simulator_words(d); !simulator.empty()) out << simulator << '\n';
-  if (const std::string apart = runs_apart_words(d); !apart.empty()) out << apart << '\n';
+  for (const std::string& more : {velocity_filter_words(d), runs_apart_words(d)})
+    if (!more.empty()) out << more << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;
   print_gap(out, d.gap.battery_energy ? "the motors' energy" : "energy", d.gap.energy, d);

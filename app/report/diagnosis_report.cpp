@@ -114,6 +114,7 @@ std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dat
       continue;
     Run run = dataset.runs[k];
     if (simulator.runs > 0) run.deviation = simulator.deviations.at(k);
+    run.velocity_filter_s = diagnosis.velocity_filter_s;
     RunSignals signals = make_run_signals(run, k, nominal.robot);
     if (const auto estimated = diagnosis.estimated_payload_kg.find(k);
         estimated != diagnosis.estimated_payload_kg.end())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <set>
 
 #include "diagnosis/evidence/materiality.hpp"
@@ -91,18 +92,30 @@ double detectable_percent(const std::vector<DetectionPower>& effects) {
   return high;
 }
 
-/// Effects by which a gap of `percent` would not be seen, however well the runs show others.
-std::vector<std::string> hidden_at(const std::vector<DetectionPower>& effects, double percent) {
-  std::vector<std::string> hidden;
+/// Effects by which a gap of kNotedUnseen_percent would not be seen, however well the runs show others.
+std::vector<HardToSee> hard_to_see(const std::vector<DetectionPower>& effects) {
+  std::vector<HardToSee> hard;
   for (const DetectionPower& effect : effects)
-    if (probability_seen(effect, percent) < kShareSeen) hidden.push_back(effect.effect);
-  return hidden;
+    if (const double percent = detectable_percent({effect}); percent > kNotedUnseen_percent)
+      hard.push_back(
+          {effect.effect, percent < kAnySize_percent ? percent : std::numeric_limits<double>::infinity()});
+  return hard;
 }
 
 std::string size_text(double percent) {
   char text[64];
   std::snprintf(text, sizeof text, "%.2g %%", percent);
   return percent < kAnySize_percent ? text : "any size";
+}
+
+/// "; effects that would show only above 3 %: ..." with the size from which each of them shows; or empty.
+std::string hard_words(const std::vector<HardToSee>& hard) {
+  std::vector<std::string> words;
+  for (const HardToSee& one : hard)
+    words.push_back(one.effect + " (from " + size_text(one.detectable_percent) + ")");
+  return words.empty() ? ""
+                       : "; effects that would show only above " + size_text(kNotedUnseen_percent) + ": " +
+                             text_of_list(words);
 }
 
 }  // namespace
@@ -116,23 +129,30 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
   if (verdict != Verdict::no_gap) return {.verdict = verdict};
   const std::vector<DetectionPower> effects = detection_powers(x);
   const double percent = detectable_percent(effects);
+  const std::vector<HardToSee> hard = hard_to_see(effects);
   if (percent > kGreatestUnseen_percent)
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
+            .hard_to_see = hard,
             .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
                     " of the energy: log more channels or more runs"};
-  if (const auto hidden = hidden_at(effects, kGreatestUnseen_percent); !hidden.empty())
+  std::vector<std::string> hidden;
+  for (const HardToSee& one : hard)
+    if (one.detectable_percent > kGreatestUnseen_percent) hidden.push_back(one.effect);
+  if (!hidden.empty())
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
+            .hard_to_see = hard,
             .note = "no gap is seen, but these runs would not show one of " +
                     size_text(kGreatestUnseen_percent) + " of the energy by " + text_of_list(hidden) +
                     ": log more channels or more runs"};
   return {.verdict = verdict,
           .detectable_percent = percent,
+          .hard_to_see = hard,
           .note = "no gap above " +
                   size_text(std::max({percent, 100 * kMaterialEnergy, measured.before_percent})) +
                   " of the energy (" + std::to_string(std::lround(100 * kShareSeen)) +
-                  " % of such gaps would have been seen)"};
+                  " % of such gaps would have been seen)" + hard_words(hard)};
 }
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "diagnosis/correction/validation.hpp"
 #include "diagnosis/values/diagnosis.hpp"
@@ -14,6 +15,7 @@ struct AllClear {
   /// Gap (% of the energy) caused by an effect of the catalog that is detected in 90 % of such datasets. 0
   /// where the verdict does not need it.
   double detectable_percent{};
+  std::vector<HardToSee> hard_to_see{};
   std::string note{};
 };
 

@@ -8,6 +8,7 @@
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/signals/acceleration_noise.hpp"
+#include "diagnosis/signals/velocity_filter.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/assert.hpp"
@@ -46,7 +47,8 @@ UniformLog uniform_grid(const Samples& time_s) {
 
 class Thinner {
  public:
-  Thinner(const Trajectory& log, const SignalOptions& options) : log_(log), grid_(uniform_grid(log.time_s)) {
+  Thinner(const Trajectory& log, const SignalOptions& options, double velocity_filter_s)
+      : log_(log), velocity_filter_s_(velocity_filter_s), grid_(uniform_grid(log.time_s)) {
     sigma_s_ = std::max(options.kernel_sigma_s, kLeastKernelPeriods * grid_.period_s);
     kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
     set_strides(options.period_s);
@@ -71,6 +73,11 @@ class Thinner {
     Samples at_s = grid_.time_s;
     for (double& t : at_s) t += delay_s;
     return interpolate(log_.time_s, channel, at_s);
+  }
+
+  /// The same of another channel than the speeds, or of a product of such: behind the filter of the speeds.
+  Samples reading(const Samples& channel, double delay_s = 0) const {
+    return behind_velocity_filter(on_grid(channel, delay_s), grid_.period_s, velocity_filter_s_);
   }
 
   /// The channel with its last stated value: a payload changes in steps and is not interpolated.
@@ -132,6 +139,7 @@ class Thinner {
   }
 
   const Trajectory& log_;
+  double velocity_filter_s_{};
   UniformLog grid_;
   double sigma_s_{};
   SmoothingKernel kernel_{};
@@ -298,13 +306,13 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(thinner.centers().size()));
   SupplyAccount account{.draw_W = zero, .return_W = zero, .mixed_W = zero};
-  for (Side side : kSides) account.motor_W[side] = thinner.smooth(thinner.on_grid(power[side], delay_s));
+  for (Side side : kSides) account.motor_W[side] = thinner.smooth(thinner.reading(power[side], delay_s));
   for (Samples& drawn_W : counted) {
     Samples returned_W = drawn_W;
     for (double& power_W : drawn_W) power_W = std::max(0.0, power_W);
     for (double& power_W : returned_W) power_W = std::min(0.0, power_W);
-    const Eigen::VectorXd draw_W = thinner.smooth(thinner.on_grid(drawn_W, delay_s)),
-                          return_W = thinner.smooth(thinner.on_grid(returned_W, delay_s));
+    const Eigen::VectorXd draw_W = thinner.smooth(thinner.reading(drawn_W, delay_s)),
+                          return_W = thinner.smooth(thinner.reading(returned_W, delay_s));
     account.draw_W += draw_W;
     account.return_W += return_W;
     account.mixed_W += draw_W.cwiseMin(-return_W);
@@ -315,7 +323,7 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
 /// Voltage, current and power of both motors; the power by the winding where no voltage is logged.
 void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Robot& robot,
                  const Sided<Samples>& logged_wheels, double delay_s) {
-  const auto mean = [&](const Samples& samples) { return thinner.smooth(thinner.on_grid(samples, delay_s)); };
+  const auto mean = [&](const Samples& samples) { return thinner.smooth(thinner.reading(samples, delay_s)); };
   Sided<Samples> counted;  // V i where it is logged: what the driver row compares
   for (Side side : kSides) {
     const Samples& current_A = log.motor_current_A[side];
@@ -336,18 +344,18 @@ void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& 
 }
 
 void fill_battery(RunSignals& signals, const Thinner& thinner, const Trajectory& log) {
-  signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));
-  signals.battery_current_A = thinner.smooth(thinner.on_grid(log.battery_current_A));
+  signals.battery_voltage_V = thinner.smooth(thinner.reading(log.battery_voltage_V));
+  signals.battery_current_A = thinner.smooth(thinner.reading(log.battery_current_A));
   signals.battery_power_W =
-      thinner.smooth(thinner.on_grid(product(log.battery_voltage_V, log.battery_current_A)));
+      thinner.smooth(thinner.reading(product(log.battery_voltage_V, log.battery_current_A)));
 }
 
 void fill_pose(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Samples& heading) {
-  signals.gyro_yaw_rate_rad_s = thinner.smooth(thinner.on_grid(log.gyro_yaw_rate_rad_s));
+  signals.gyro_yaw_rate_rad_s = thinner.smooth(thinner.reading(log.gyro_yaw_rate_rad_s));
   signals.heading_rad = thinner.smooth(heading);
   if (log.position_x_m.empty() || log.position_y_m.empty()) return;
-  signals.x_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_x_m)));
-  signals.y_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_y_m)));
+  signals.x_m = thinner.smooth(at_sample_middle(thinner.reading(log.position_x_m)));
+  signals.y_m = thinner.smooth(at_sample_middle(thinner.reading(log.position_y_m)));
 }
 
 /// A simulator's deviation at the run's samples. Where its wheels do not turn, dry friction has no known
@@ -393,7 +401,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
                             const SignalOptions& options) {
   JOULEPATH_ASSERT(has_usable_log(run), "a run without wheel speeds cannot be smoothed");
   const Trajectory& log = run.log;
-  const Thinner thinner(log, options);
+  const Thinner thinner(log, options, run.velocity_filter_s);
   RunSignals signals{.name = run.name,
                      .run_index = run_index,
                      .period_s = thinner.period_s(),
@@ -406,7 +414,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   const Sided<Samples> wheels{thinner.on_grid(logged_wheels.left), thinner.on_grid(logged_wheels.right)};
   signals.heading_measured = !log.heading_rad.empty();
   const Samples heading = signals.heading_measured
-                              ? at_sample_middle(thinner.on_grid(unwrap_angle(log.heading_rad)))
+                              ? at_sample_middle(thinner.reading(unwrap_angle(log.heading_rad)))
                               : heading_from_wheels(wheels, robot, thinner.grid_period_s());
   fill_wheels(signals, thinner, wheels, heading, options.least_turning_speed_rad_s);
 

@@ -22,6 +22,12 @@ namespace joulepath {
 
 using Range95 = std::pair<double, double>;  ///< low and high end of a 95 % interval
 
+/// An effect that changes the energy, and that these runs show only from a notable size on.
+struct HardToSee {
+  std::string effect{};
+  double detectable_percent{};  ///< of the energy: seen in 90 % of cases; infinite where no size is
+};
+
 /// The energy gap of the validation runs: sum of |predicted - measured| over sum of |measured|.
 struct EnergyGap {
   double before_percent{}, after_percent{};
@@ -31,6 +37,7 @@ struct EnergyGap {
   double shrink_fraction{};
   Range95 shrink_interval_95{};
   double detectable_percent{};  ///< with no_gap: a gap of this size would have been seen in 90 % of cases
+  std::vector<HardToSee> hard_to_see{};
 };
 
 /// Root mean squares over the validation runs.
@@ -154,6 +161,7 @@ struct SimulatorGap {
 struct Diagnosis {
   GapReport gap{};
   SimulatorGap simulator{};
+  double velocity_filter_s{};  ///< of the filter behind which the wheel speeds are; 0: none is told
   std::vector<RunApart> runs_apart{};
   std::vector<WhereCell> where{};
   Verdict verdict{Verdict::too_little_data};

@@ -227,6 +227,12 @@ std::string verdict_sentence(const Diagnosis& d) {
 
 }  // namespace
 
+std::string velocity_filter_words(const Diagnosis& d) {
+  if (d.velocity_filter_s == 0) return "";
+  return "The wheel speeds are behind a filter of " + three_digits(d.velocity_filter_s) +
+         " s; all channels are compared behind it.";
+}
+
 std::string runs_apart_words(const Diagnosis& d) {
   std::vector<std::string> words;
   for (const RunApart& apart : d.runs_apart)
@@ -257,7 +263,7 @@ std::string right_robot_question(const std::string& robot_file, const std::vecto
 
 std::string diagnosis_sentence(const Diagnosis& d) {
   std::string sentence = verdict_sentence(d);
-  for (const std::string& more : {simulator_words(d), runs_apart_words(d)})
+  for (const std::string& more : {simulator_words(d), velocity_filter_words(d), runs_apart_words(d)})
     if (!more.empty()) sentence += " " + more;
   return sentence;
 }

@@ -10,6 +10,9 @@ namespace joulepath {
 /// of the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);
 
+/// "The wheel speeds are behind a filter of 0.08 s; ...": or empty.
+[[nodiscard]] std::string velocity_filter_words(const Diagnosis& diagnosis);
+
 /// "Left out: run_07.csv, whose energy is 51 % above ...": the runs that the answer does not count; or empty.
 [[nodiscard]] std::string runs_apart_words(const Diagnosis& diagnosis);
 

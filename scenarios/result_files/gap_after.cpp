@@ -37,7 +37,8 @@ std::string gap_after_json(const GapAfter& after, const Forecast& forecast) {
                                {{"shrink_fraction", six_digits(forecast.shrink_fraction)},
                                 {"shrink_interval_95", {six_digits(low), six_digits(high)}}}},
                               {"validation", {{"runs", after.runs}, {"method", forecast.method}}}};
-  json["gap"]["energy"].erase("detectable_percent");
+  for (const char* of_the_first : {"detectable_percent", "hard_to_see"})
+    json["gap"]["energy"].erase(of_the_first);
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -145,7 +145,11 @@ Schema gap_schema() {
            required("bias_before_percent", result(), "predicted - measured; negative: the model is too low"),
            required("noise_floor_percent", result()), required("before_J", result()),
            required("after_J", result()), required("shrink_fraction", result()),
-           required("shrink_interval_95", interval())}));
+           required("shrink_interval_95", interval()),
+           optional("hard_to_see",
+                    list(open(map({required("effect", text()),
+                                   required("detectable_percent", result(), "null: no size is seen")}))),
+                    "without a gap: effects that these runs show only above 3 % of the energy")}));
   return open(map({required("energy", energy, "of the motors; at the battery where nothing measures them"),
                    optional("battery_energy", energy, "at the battery, where both are measured"),
                    optional("current", open(map({}))), optional("voltage", open(map({}))),
@@ -301,6 +305,8 @@ Schema diagnosis_schema() {
        required("gap", gap_schema()),
        optional("simulator", simulator_schema(),
                 "the user's own simulator (`predicted:`), which everything else is about"),
+       optional("velocity_filter_s", number(),
+                "time constant of the filter behind which the wheel speeds are"),
        optional("runs_apart", runs_apart_schema(),
                 "runs that no model of the others describes; nothing else here counts them"),
        required("where", where_schema()),

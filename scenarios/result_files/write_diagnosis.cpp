@@ -1,5 +1,6 @@
 #include "scenarios/result_files/write_diagnosis.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "model/text_of_list.hpp"
@@ -29,6 +30,20 @@ Json energy_json(const EnergyGap& e) {
           {"shrink_interval_95", interval(e.shrink_interval_95)}};
 }
 
+/// A list with one entry for each value, as `entry` writes it.
+template <class Value, class Entry>
+Json each_json(const std::vector<Value>& values, const Entry& entry) {
+  Json list = Json::array();
+  for (const Value& value : values) list.push_back(entry(value));
+  return list;
+}
+
+Json hard_json(const HardToSee& one) {
+  const bool shows = std::isfinite(one.detectable_percent);
+  return {{"effect", one.effect},
+          {"detectable_percent", shows ? Json(six_digits(one.detectable_percent)) : Json(nullptr)}};
+}
+
 void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, const std::string& unit) {
   if (!gap.present) return;
   json[prefix + "before_rms_" + unit] = six_digits(gap.before_rms);
@@ -55,6 +70,7 @@ Json gap_json(const GapReport& gap) {
             {"battery", battery},
             {"energy_by_phase", phases}};
   json["energy"]["detectable_percent"] = six_digits(gap.energy.detectable_percent);
+  json["energy"]["hard_to_see"] = each_json(gap.energy.hard_to_see, hard_json);
   if (gap.battery_energy) json["battery_energy"] = energy_json(*gap.battery_energy);
   return json;
 }
@@ -95,14 +111,6 @@ Json named_cause_json(const Cause& cause) {
           {"parameters", parameters},
           {"energy_share", six_digits(cause.energy_share)},
           {"shrink_fraction_alone", six_digits(cause.shrink_fraction_alone)}};
-}
-
-/// A list with one entry for each value, as `entry` writes it.
-template <class Value, class Entry>
-Json each_json(const std::vector<Value>& values, const Entry& entry) {
-  Json list = Json::array();
-  for (const Value& value : values) list.push_back(entry(value));
-  return list;
 }
 
 Json simulator_json(const Diagnosis& d) {
@@ -245,6 +253,7 @@ std::string diagnosis_json(const Diagnosis& d) {
        {{"missions", d.decision_missions},
         {"joules_lost_with_nominal_percent", six_digits(d.joules_lost_percent)}}},
       {"validation", {{"runs", d.validation_runs}, {"method", d.validation_method}}}};
+  if (d.velocity_filter_s > 0) json["velocity_filter_s"] = six_digits(d.velocity_filter_s);
   if (d.simulator.runs > 0) json["simulator"] = simulator_json(d);
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagnosis/signals/runs_by_use.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 
@@ -42,6 +43,34 @@ TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   const Diagnosis d = diagnose(battery_only(day, false), {.bootstrap = 20});
   EXPECT_EQ(d.verdict, Verdict::too_little_data) << verdict_name(d.verdict);
   EXPECT_TRUE(d.causes.empty());
+}
+
+/// A mean over effects hides those that show late: an all-clear names each with the size from which it shows,
+/// and a day with half as much again is none.
+TEST(AllClear, NamesTheEffectsThatShowLate) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis silent = diagnose(quiet_day("--effect none --protocol 12"), {.bootstrap = 20});
+  ASSERT_EQ(silent.verdict, Verdict::no_gap) << verdict_name(silent.verdict);
+  const std::vector<HardToSee>& hard = silent.gap.energy.hard_to_see;
+  ASSERT_FALSE(hard.empty());
+  EXPECT_NE(silent.notes.back().find("would show only above 3 %: "), std::string::npos)
+      << silent.notes.back();
+  for (const HardToSee& one : hard) {
+    EXPECT_NE(silent.notes.back().find(one.effect + " (from "), std::string::npos) << one.effect;
+    EXPECT_GT(one.detectable_percent, silent.gap.energy.detectable_percent) << one.effect;
+    EXPECT_LE(one.detectable_percent, kGreatestUnseen_percent) << one.effect;
+  }
+  const auto coulomb = std::ranges::find(hard, "coulomb_friction", &HardToSee::effect);
+  ASSERT_NE(coulomb, hard.end());
+  Diagnosis more;
+  for (double torque_Nm = 0.01; more.gap.energy.before_percent < 1.5 * coulomb->detectable_percent;
+       torque_Nm *= 1.2) {
+    ASSERT_LT(torque_Nm, 1.0);
+    more = diagnose(quiet_day("--effect coulomb_friction --protocol 12 --size " + std::to_string(torque_Nm)),
+                    {.bootstrap = 20});
+  }
+  EXPECT_TRUE(more.verdict != Verdict::no_gap && more.verdict != Verdict::too_little_data)
+      << verdict_name(more.verdict);
 }
 
 /// Calibration errors within their uncertainty take up a gap that is larger than what the runs would have

@@ -275,6 +275,10 @@ TEST(NullDay, IsNoneWhereOneEffectOfTheEnergyIsHidden) {
     return note.find(" of the energy by winding_resistance_error") != std::string::npos;
   }));
   EXPECT_LT(d.gap.energy.detectable_percent, kGreatestUnseen_percent) << "the others show";
+  const auto& hard = d.gap.energy.hard_to_see;
+  const auto winding = std::ranges::find(hard, "winding_resistance_error", &HardToSee::effect);
+  ASSERT_NE(winding, hard.end());
+  EXPECT_GT(winding->detectable_percent, kGreatestUnseen_percent);
 }
 
 /// Stamps the samples of a channel by a share of the sample time late.

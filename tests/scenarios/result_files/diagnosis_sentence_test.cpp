@@ -98,6 +98,28 @@ TEST(DiagnosisSentence, OfAnAllClearSaysAboveWhichSize) {
       << diagnosis_sentence(d);
 }
 
+/// What no size would show is null in the file, not a large number.
+TEST(DiagnosisJson, ListsWhatShowsLate) {
+  Diagnosis d = with_gap(Verdict::no_gap, 0.4, 0.4);
+  d.gap.energy.hard_to_see = {{"coulomb_friction", 6.25},
+                              {"supply_sag", std::numeric_limits<double>::infinity()}};
+  const nlohmann::json hard = nlohmann::json::parse(diagnosis_json(d))["gap"]["energy"]["hard_to_see"];
+  EXPECT_EQ(hard.at(0).at("effect"), "coulomb_friction");
+  EXPECT_EQ(hard.at(0).at("detectable_percent"), 6.25);
+  EXPECT_TRUE(hard.at(1).at("detectable_percent").is_null());
+}
+
+TEST(DiagnosisSentence, TellsTheFilterOfTheWheelSpeeds) {
+  Diagnosis d = with_gap(Verdict::no_gap, 0.4, 0.4);
+  EXPECT_FALSE(nlohmann::json::parse(diagnosis_json(d)).contains("velocity_filter_s"));
+  EXPECT_EQ(diagnosis_sentence(d).find("filter"), std::string::npos);
+  d.velocity_filter_s = 0.0801;
+  EXPECT_NE(diagnosis_sentence(d).find(" The wheel speeds are behind a filter of 0.0801 s"),
+            std::string::npos)
+      << diagnosis_sentence(d);
+  EXPECT_EQ(nlohmann::json::parse(diagnosis_json(d))["velocity_filter_s"], 0.0801);
+}
+
 TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
   Diagnosis group = with_gap(Verdict::ambiguous, 4, 1);
   group.causes = {dragging(Side::left)};
