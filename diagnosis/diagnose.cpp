@@ -261,12 +261,12 @@ Diagnosis diagnose_sound(const Dataset& dataset, RunsByUse runs, const DiagnoseO
   return d;
 }
 
-/// Of the robot against the file's model. Where a filter smoothed the wheel speeds, all channels are read
-/// behind it.
+/// Of the robot against the file's model. Where a filter smoothed the wheel speeds of sound channels, all are
+/// read behind it: swapped currents resemble one.
 Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
   RunsByUse runs = sort_runs(dataset);
   const LateSpeeds late = examine_late_speeds(runs.diagnosis);
-  if (late.filter_s == 0) {
+  if (late.filter_s == 0 || !check_data(dataset, runs).empty()) {
     Diagnosis d = diagnose_sound(dataset, std::move(runs), options);
     d.notes = joined({d.notes, note_of_delay(d.causes, late)});
     return d;
