@@ -371,7 +371,7 @@ inline constexpr double kNotableDelayGain = 0.15;
 inline constexpr double kLongestFilter_s = 0.25;
 /// Step of the delay beside it. Declared: bounds time.
 inline constexpr double kFineDelayStep_s = 0.005;
-/// Share of the sum of squares behind a delay that the filter must explain. Chosen: 0.36 to 0.97 on days with
+/// Share of the sum of squares behind a delay that the filter must explain. Chosen: 0.33 to 0.94 on days with
 /// a filter, at most 0.1 on others (0501).
 inline constexpr double kNotableFilterGain = 0.25;
 /// Share of the accelerations' sum of squares that currents and speeds do not follow: with less, noise of the
