@@ -313,18 +313,14 @@ class BestPlan {
   void take(PlanIt&& plan_it) {
     try {
       Plan other = plan_it();
-      if (!best_ ||
-          (is_driven(other) ? !is_driven(*best_) || cost(other) < cost(*best_) : !is_driven(*best_)))
-        best_ = std::move(other);
+      if (!best_ || is_better(other)) best_ = std::move(other);
     } catch (const ConfigError&) {
       if (!refused_) refused_ = std::current_exception();
     }
   }
 
   const std::optional<Plan>& best() const { return best_; }
-  bool is_late() const {
-    return best_ && best_->infeasibility && joulepath::is_late(best_->infeasibility->reason);
-  }
+  bool is_late() const { return best_ && late(*best_); }
 
   Plan plan() && {
     if (!best_) std::rethrow_exception(refused_);
@@ -332,6 +328,17 @@ class BestPlan {
   }
 
  private:
+  static const Infeasibility* late(const Plan& plan) {
+    const bool so = plan.infeasibility && joulepath::is_late(plan.infeasibility->reason);
+    return so ? &plan.infeasibility->reason : nullptr;
+  }
+  /// Of two drives the cheaper one; of two verdicts the one that is later by less, or else the newer one.
+  bool is_better(const Plan& other) const {
+    if (is_driven(other)) return !is_driven(*best_) || cost(other) < cost(*best_);
+    if (is_driven(*best_)) return false;
+    const Infeasibility *before = late(*best_), *after = late(other);
+    return !before || !after || after->amount < before->amount;
+  }
   double cost(const Plan& plan) const {
     return std::isinf(floor_W_) ? plan.duration_s : plan.energy.total_J() + floor_W_ * plan.duration_s;
   }
@@ -342,9 +349,9 @@ class BestPlan {
 };
 
 /// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
-/// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
-/// the better plan is returned; under a jerk limit, which drafts of ways leave out, the least time, and a
-/// time that is hard to keep, are tried on the ways of least energy, too.
+/// bind leaves as they are. Where times raise or lower prices, the ways at those prices, those of least time
+/// and those between are tried, too: the ways of a front. The least time is tried on those of least energy,
+/// too: the joint program tells small differences of time badly.
 Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                        const RouteSpace* space, const Plant& plant, const Plan& known) {
   BestPlan trials(mission.objective);
@@ -355,12 +362,16 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
   take(first_W);
   if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches))
     return std::move(trials).plan();
-  if (!trials.best() || trials.is_late() || !pays(*trials.best(), mission, first_W)) take({});
-  const bool limits_jerk = world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3);
-  if (limits_jerk && (minimizes_time(mission) || trials.is_late())) {
+  const bool binds = !trials.best() || trials.is_late() || !pays(*trials.best(), mission, first_W);
+  if (binds) {
+    take({});
+    if (!minimizes_time(mission)) take(kNoLimit);
+    if (trials.best() && is_driven(*trials.best())) take(middle_price_W(*trials.best()));
+  }
+  if (minimizes_time(mission) || trials.is_late()) {
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;
-    take(first_price_W(cheapest, world, plant));
+    if (const double price_W = first_price_W(cheapest, world, plant); price_W != first_W) take(price_W);
   }
   return std::move(trials).plan();
 }

@@ -113,6 +113,18 @@ double latest_s(const MissionRequest& mission, std::size_t leg) {
 
 }  // namespace
 
+double middle_price_W(const Plan& plan) {
+  // Times the mean power of driving. Without its ways, fronts were up to 0.2 % dearer than plans.
+  constexpr double kMiddle = 4;
+  double energy_J = 0, duration_s = 1e-9;
+  for (const LegPlan& leg : plan.legs)
+    for (const StretchPlan& stretch : leg.stretches) {
+      energy_J += stretch.energy.total_J();
+      duration_s += stretch.profile.duration_s();
+    }
+  return kMiddle * energy_J / duration_s;
+}
+
 double first_price_W(const MissionRequest& mission, const MissionWorld& world, const Plant& plant) {
   constexpr double kAnyPrice_W = 1.0;
   const double lowest_W = lowest_price_W(mission.objective);
@@ -129,12 +141,12 @@ void bound_open_times(PreparedLegs& prepared, const MissionRequest& mission) {
     if (!slower_is_always_cheaper(prepared.timing[k])) continue;
     const double most_s = latest_s(mission, k);
     if (std::isinf(most_s))
-      throw ConfigError({.mark = {mission.robot_file, 0, 0},
-                         .key = "power.standby_W",
-                         .found = "0 W and no dry friction: slower is always cheaper (legs[" +
-                                  std::to_string(k) + "])",
-                         .accepted = "standby_W above 0, or a mission with a deadline or a duration",
-                         .hint = {}});
+      throw ConfigError(
+          {.mark = {mission.robot_file, 0, 0},
+           .key = "power.standby_W",
+           .found = "0 W and no dry friction: slower is always cheaper (legs[" + std::to_string(k) + "])",
+           .accepted = "standby_W above 0, or a mission with a deadline or a duration",
+           .hint = {}});
     prepared.timing[k].give(kSpare * most_s);
   }
 }

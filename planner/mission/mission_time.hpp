@@ -4,6 +4,7 @@
 
 #include "planner/mission/prepared_legs.hpp"
 #include "planner/mission/time_split.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 
@@ -19,6 +20,9 @@ namespace joulepath {
 /// the robot nothing, so that slower would always be cheaper.
 [[nodiscard]] double first_price_W(const MissionRequest& mission, const MissionWorld& world,
                                    const Plant& plant);
+
+/// The price (W) at which ways lie between those of least energy and of least time.
+[[nodiscard]] double middle_price_W(const Plan& plan);
 
 /// Bounds the times of legs on which slower is always cheaper, by far more than their deadlines or durations
 /// allow. Throws ConfigError where a mission gives them no time.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/limits.hpp"
+#include "planner/mission/mission_time.hpp"
 
 namespace joulepath {
 namespace {
@@ -33,16 +34,7 @@ bool searched_ways(const Plan& plan) {
                      [](const LegPlan& leg) { return !leg.alternatives.empty(); });
 }
 
-/// A price of a second at which ways lie between those of least energy and of least time.
-double middle_price_W(const Plan& plan) {
-  // Times the mean power of driving. Without its ways, fronts were up to 0.2 % dearer than plans.
-  constexpr double kMiddle = 4;
-  const FrontPoint rest = rest_of(plan);
-  return kMiddle * (plan.energy.total_J() - rest.energy_J) /
-         std::max(1e-9, plan.duration_s - rest.duration_s);
-}
-
-/// Adds the plan of least time and one between it and the plan of least energy, until ways repeat.
+/// Adds the plan of least time and one between it and the plan of least energy, where ways differ.
 void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, PlanOptions options,
                       const RouteSpace* space, std::vector<Plan>& plans) {
   options.baselines = options.path_bound = false;
@@ -53,8 +45,8 @@ void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, 
     if (std::isfinite(price_W)) hurried.objective.time_value_W = price_W;
     Plan plan = plan_mission(hurried, world, options, space);
     const auto is_known = [&](const Plan& known) { return same_ways(plan, known); };
-    if (plan.status > SolveStatus::feasible || std::any_of(plans.begin(), plans.end(), is_known)) return;
-    plans.push_back(std::move(plan));
+    if (plan.status <= SolveStatus::feasible && std::none_of(plans.begin(), plans.end(), is_known))
+      plans.push_back(std::move(plan));
   }
 }
 

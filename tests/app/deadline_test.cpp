@@ -57,5 +57,80 @@ TEST(Deadline, DoesNotRefuseAnEndSpeedThatTheMissionWithoutItKeeps) {
   EXPECT_EQ(sooner.code, 0) << sooner.err << sooner.out;
 }
 
+/// A machine on an empty hall of 24 m; yaml of its geometry, inertia, motor, limits and power.
+struct Machine {
+  std::string robot{};
+  std::string start_heading_rad{}, goal{}, payload_kg{};
+};
+
+const std::vector<Machine> kMachines{
+    {"geometry: {wheel_radius_m: 0.0908, half_track_m: 0.2212, center_of_mass_offset_m: 0.08}\n"
+     "inertia: {chassis_mass_kg: 84.4, wheel_mass_kg: 2.53, chassis_yaw_inertia_kg_m2: 4.16, "
+     "payload_yaw_inertia_m2: 0.02, wheel_axle_inertia_kg_m2: 0.0449, wheel_diameter_inertia_kg_m2: "
+     "0.00626}\n"
+     "motor: {gear_ratio: 20.264, resistance_ohm: 0.7485, torque_constant_Nm_A: 0.05216, "
+     "voltage_constant_V_s_rad: 0.05216, viscous_friction_Nm_s_rad: 0.01016, friction_torque_Nm: 0.2703, "
+     "max_voltage_V: 24, max_current_A: 7.611}\n"
+     "limits: {speed_m_s: 1.443, reverse_speed_m_s: 0.485, acceleration_m_s2: 0.329, deceleration_m_s2: "
+     "0.766, lateral_acceleration_m_s2: 0.518, yaw_rate_rad_s: 1.998, yaw_acceleration_rad_s2: 2.835, "
+     "max_payload_kg: 50}\n"
+     "power: {standby_W: 22.98, regeneration_efficiency: 0, sharing: wheel}\n",
+     "-2.3478", "{x_m: 6.2923, y_m: 4.5578}", "0"},
+    {"geometry: {wheel_radius_m: 0.0653, half_track_m: 0.2171, center_of_mass_offset_m: 0}\n"
+     "inertia: {chassis_mass_kg: 17.219, wheel_mass_kg: 0.517, chassis_yaw_inertia_kg_m2: 0.8158, "
+     "payload_yaw_inertia_m2: 0.02, wheel_axle_inertia_kg_m2: 0.00561, wheel_diameter_inertia_kg_m2: "
+     "0.00066}\n"
+     "motor: {gear_ratio: 33.219, resistance_ohm: 1.9774, torque_constant_Nm_A: 0.02488, "
+     "voltage_constant_V_s_rad: 0.02488, viscous_friction_Nm_s_rad: 0.00624, friction_torque_Nm: 0.1248, "
+     "max_voltage_V: 24, max_current_A: 0.853}\n"
+     "limits: {speed_m_s: 1.327, reverse_speed_m_s: 0.922, acceleration_m_s2: 0.618, deceleration_m_s2: "
+     "0.237, lateral_acceleration_m_s2: 0.305, yaw_rate_rad_s: 1.122, yaw_acceleration_rad_s2: 2.475, "
+     "max_payload_kg: 10.33}\n"
+     "power: {standby_W: 29.72, regeneration_efficiency: 0, sharing: wheel}\n",
+     "0.2445", "{x_m: 2.2648, y_m: 1.5647}", "7.873"}};
+
+/// A front is one of ways of several plans: a plan with a point's time as its deadline is no dearer, and the
+/// plan of least time is no later than its first point.
+TEST(Deadline, PlansAreNoDearerThanTheFront) {
+  constexpr double kSame = 1.001, kLater = 1e-4;
+  const ScratchDirectory scratch;
+  scratch.write("hall.pgm", "P5\n240 240\n255\n" + std::string(240 * 240, '\xff'));
+  scratch.write("hall.yaml",
+                "image: hall.pgm\nmode: trinary\nresolution: 0.1\norigin: [-12.0, -12.0, 0]\nnegate: 0\n"
+                "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const auto answer = [&](const std::string& command, const std::string& objective, const Machine& machine) {
+    scratch.write("robot.yaml", "schema: joulepath/robot/1\nname: r\n" + machine.robot +
+                                    "battery: {capacity_Wh: 500, open_circuit_voltage_V: 25, "
+                                    "internal_resistance_ohm: 0.02}\nfootprint: {radius_m: 0.32}\n");
+    const std::string mission = scratch.write(
+        "mission.yaml",
+        "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: hall.yaml\nstations:\n  a: {x_m: 0, y_m: 0, "
+        "heading_rad: " +
+            machine.start_heading_rad + "}\n  b: " + machine.goal +
+            "\nstart: {station: a}\nlegs: [{to: b, payload_kg: " + machine.payload_kg + "}]\nobjective: {" +
+            objective + "}\n");
+    const ProgramResult result = run_program(
+        scratch, command + " " + mission + " --force --out " + scratch.at("out") + " --json --nodes 100");
+    EXPECT_EQ(result.code, 0) << command << " " << objective << result.err << result.out;
+    return result.code == 0 ? nlohmann::json::parse(result.out) : nlohmann::json();
+  };
+  for (const Machine& machine : kMachines) {
+    const auto front = answer("front --points 8 --baselines 0", "minimize: energy", machine);
+    ASSERT_FALSE(front.is_null());
+    const auto& points = front["points"];
+    const auto fastest =
+        answer("plan --solver fast --without baselines,path_bound", "minimize: time", machine);
+    EXPECT_LE(fastest["duration_s"].get<double>(), kSame * points.front()["duration_s"].get<double>());
+    for (const std::size_t k : {0u, 1u, 3u}) {
+      const double time_s = points[k]["duration_s"].get<double>() * (1 + kLater);
+      const auto plan = answer("plan --solver fast --without baselines,path_bound",
+                               "minimize: energy, deadline_s: " + std::to_string(time_s), machine);
+      if (plan.is_null()) continue;
+      EXPECT_LE(plan["energy_J"].get<double>(), kSame * points[k]["energy_J"].get<double>())
+          << k << ": " << time_s << " s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace joulepath
