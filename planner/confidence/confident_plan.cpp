@@ -288,6 +288,18 @@ class ConfidentPlanner {
     }
   }
 
+  /// A charge that is enough for the reserve may leave another promise open: windings that are too hot.
+  void drop_vain_charge(Infeasibility& reason) const {
+    const auto offered = reason.relaxation.find("battery_fraction");
+    const bool heats = world_.robot.motor.left.thermal || world_.robot.motor.right.thermal;
+    if (offered == reason.relaxation.end() || !heats) return;
+    MissionRequest charged = mission_;
+    charged.start.battery_fraction = offered->second;
+    ConfidentPlanner planner(charged, world_, quick(), plan_once_);
+    planner.offers_ = false;
+    if (!is_driven(planner.plan())) reason.relaxation.erase(offered);
+  }
+
   /// What a verdict on the reserve offers is judged again when it is planned with: it has some slack.
   Plan with_slack(Plan refused) {
     if (!refused.infeasibility || refused.infeasibility->reason.constraint != "battery_reserve")
@@ -303,8 +315,10 @@ class ConfidentPlanner {
     if (refused.infeasibility) {
       Infeasibility& reason = refused.infeasibility->reason;
       if (offers_) offer_whole_limits(reason);
+      if (offers_) drop_vain_charge(reason);
+      name_margin(refused.winding, reason);
       reason.message = "with " + percent(confidence_) + ": " + reason.message +
-                       measured_with_margin(refused) + "; the plan without margins keeps its promises with " +
+                       "; the plan without margins keeps its promises with " +
                        percent(account_.kept_without) + " of the draws, which shows " +
                        percent(shown_without());
       refused.message = reason.message;
@@ -313,19 +327,22 @@ class ConfidentPlanner {
     return refused;
   }
 
-  /// Heat and charge of a refused plan are measured against the robot file's limits less their margins.
-  std::string measured_with_margin(const Plan& refused) const {
-    std::ostringstream text;
-    text.precision(3);
-    const std::string& limit = refused.infeasibility->reason.constraint;
-    if (limit == kWindingTemperature && refused.winding) {
-      const WindingThermal& thermal = *world_.robot.motor[refused.winding->side].thermal;
-      text << ", less a margin of "
-           << (1 - margins_.share[kWindingLimit]) * (thermal.max_winding_C - thermal.ambient_C) << " K";
-    } else if (limit == "battery_reserve" && margins_.reserve > 0) {
-      text << ", the reserve with a margin of " << 100 * margins_.reserve << " % of the capacity";
+  /// Heat and charge are measured against the robot file's limits less their margins: so says the sentence.
+  void name_margin(const std::optional<WindingAccount>& winding, Infeasibility& reason) const {
+    std::ostringstream margin;
+    margin.precision(3);
+    std::string limit;
+    if (reason.constraint == kWindingTemperature && winding) {
+      limit = "max_winding_C";
+      const WindingThermal& thermal = *world_.robot.motor[winding->side].thermal;
+      margin << " less a margin of "
+             << (1 - margins_.share[kWindingLimit]) * (thermal.max_winding_C - thermal.ambient_C) << " K";
+    } else if (reason.constraint == "battery_reserve" && margins_.reserve > 0) {
+      limit = "its reserve";
+      margin << " and a margin of " << 100 * margins_.reserve << " % of the capacity";
     }
-    return text.str();
+    if (const auto at = reason.message.find(limit); !limit.empty() && at != std::string::npos)
+      reason.message.insert(at + limit.size(), margin.str());
   }
 
   double shown_without() const {

@@ -502,7 +502,8 @@ TEST(Confidence, GuardsTheReserveByTheModelsOwnError) {
   const Plan too_small = with_capacity(1.4);
   ASSERT_EQ(too_small.status, SolveStatus::infeasible) << too_small.message;
   EXPECT_EQ(too_small.infeasibility->reason.constraint, "battery_reserve");
-  EXPECT_NE(too_small.message.find("the reserve with a margin of"), std::string::npos) << too_small.message;
+  EXPECT_NE(too_small.message.find("below its reserve and a margin of"), std::string::npos)
+      << too_small.message;
   EXPECT_NEAR(too_small.confidence->kept_without, normal_share(1.4), 4 * share_sigma(0.92, 4000));
 }
 
