@@ -100,6 +100,8 @@ class JointNewton::Steps {
   void add_rows_of_bounds(Sums& sums);
   void hold_knots();
   void direction();
+  template <class Each>
+  void for_border(const Each& each) const;
   RowMajor eliminated() const;
   StepLengths step_rows();
   double merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step);
@@ -446,18 +448,24 @@ void JointNewton::Steps::hold_knots() {
   }
 }
 
+/// Calls each(square, parameter, value) for the entries of B.
+template <class Each>
+void JointNewton::Steps::for_border(const Each& each) const {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
+    const std::array<Index, 3> column = columns(parts_[k]);
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      for (std::size_t c = 0; c < column.size(); ++c)
+        if (unknown[i] >= 0)
+          each(unknown[i], column[c], border_[k](static_cast<Index>(i), static_cast<Index>(c)));
+  }
+}
+
 /// T^-1 [B g]: the squares' part of the system, solved for each parameter and for the gradient.
 RowMajor JointNewton::Steps::eliminated() const {
   const Index n = program_.parameters();
   RowMajor x = RowMajor::Zero(free_, n + 1);
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
-    const std::array<Index, 3> column = columns(parts_[k]);
-    for (Index i = 0; i < 2; ++i)
-      for (Index c = 0; c < 3; ++c)
-        if (const Index row = unknown[static_cast<std::size_t>(i)]; row >= 0)
-          x(row, column[static_cast<std::size_t>(c)]) += border_[k](i, c);
-  }
+  for_border([&](Index row, Index column, double value) { x(row, column) += value; });
   x.col(n) = gb_;
   for (Index k = 1; k < free_; ++k) x.row(k) -= lower_[k] * x.row(k - 1);
   for (Index k = 0; k < free_; ++k) x.row(k) /= pivot_[k];
@@ -481,14 +489,7 @@ void JointNewton::Steps::direction() {
   const RowMajor x = eliminated();
   RowMajor schur(n, n + 1);  // and the gradient
   schur << hpp_, gp_;
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
-    const std::array<Index, 3> column = columns(parts_[k]);
-    for (Index c = 0; c < 3; ++c)
-      for (Index i = 0; i < 2; ++i)
-        if (const Index row = unknown[static_cast<std::size_t>(i)]; row >= 0)
-          schur.row(column[static_cast<std::size_t>(c)]) -= border_[k](i, c) * x.row(row);
-  }
+  for_border([&](Index row, Index column, double value) { schur.row(column) -= value * x.row(row); });
 
   const Eigen::HouseholderQR<MatrixXd> qr(targets_.transpose());
   const auto q = qr.householderQ();
