@@ -303,6 +303,12 @@ bool pays(const Plan& plan, const MissionRequest& mission, double way_price_W) {
   return !moved(std::vector<double>(price_W.size(), way_price_W), price_W);
 }
 
+double highest_price_W(const Plan& plan) {
+  double price_W = 0;
+  for (const LegPlan& leg : plan.legs) price_W = std::max(price_W, leg.price_of_time_W);
+  return price_W;
+}
+
 /// The best of several plans of one mission. A trial that the mission's keys refuse does not count beside
 /// one that is planned.
 class BestPlan {
@@ -349,9 +355,10 @@ class BestPlan {
 };
 
 /// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
-/// bind leaves as they are. Where times raise or lower prices, the ways at those prices, those of least time
-/// and those between are tried, too: the ways of a front. The least time is tried on those of least energy,
-/// too: the joint program tells small differences of time badly.
+/// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
+/// the others of a front: those between least energy and least time and, at prices above, those of least
+/// time. The least time is tried on those of least energy, too: the joint program tells small differences of
+/// time badly.
 Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                        const RouteSpace* space, const Plant& plant, const Plan& known) {
   BestPlan trials(mission.objective);
@@ -365,8 +372,10 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
   const bool binds = !trials.best() || trials.is_late() || !pays(*trials.best(), mission, first_W);
   if (binds) {
     take({});
-    if (!minimizes_time(mission)) take(kNoLimit);
-    if (trials.best() && is_driven(*trials.best())) take(middle_price_W(*trials.best()));
+    const bool driven = trials.best() && is_driven(*trials.best());
+    const double middle_W = driven ? middle_price_W(*trials.best()) : 0;
+    if (driven) take(middle_W);
+    if (!minimizes_time(mission) && (!driven || highest_price_W(*trials.best()) > middle_W)) take(kNoLimit);
   }
   if (minimizes_time(mission) || trials.is_late()) {
     MissionRequest cheapest = mission;

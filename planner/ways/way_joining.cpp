@@ -223,7 +223,8 @@ std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
   return starts;
 }
 
-/// Each leg alone, from the arrival of the one before: a start for all of them together.
+/// Each leg alone, from the arrival of the one before: a start for all of them together. The coarse grid
+/// tells differences of energy well enough, those of time not.
 RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQuery& query) const {
   std::vector<Sketch> legs;
   Pose from = query.start;
@@ -233,14 +234,19 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
                                 .laws = {query.laws[i]},
                                 .reverse_laws = {query.reverse_laws[i]},
                                 .checker = query.checker};
+    const auto best = [&](const Starts& starts) -> std::optional<joint::JointPaths> {
+      if (std::isfinite(run_.contexts[first + i].price_W)) return joint::best_coarse_paths(leg, starts);
+      std::vector<joint::JointPaths> fine = joint::best_joint_paths(leg, starts);
+      return fine.empty() ? std::nullopt : std::optional(std::move(fine.front()));
+    };
     std::optional<joint::JointPaths> found;
     if (const auto& known = parts_[first + i].sketch) {
       found = joint::best_coarse_paths(leg, {{*known}});
     } else {
       auto [forward, backward] = joint_starts(first + i, leg);
       append_all(forward, turning_paths(first + i, leg));
-      found = joint::best_coarse_paths(leg, forward);
-      if (!found) found = joint::best_coarse_paths(leg, backward);
+      found = best(forward);
+      if (!found) found = best(backward);
     }
     if (!found) return {};
     legs.push_back(std::move(found->sketches.front()));
