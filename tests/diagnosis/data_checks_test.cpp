@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -11,6 +13,7 @@
 
 #include "diagnosis/checks/faults.hpp"
 #include "diagnosis/checks/motor_notes.hpp"
+#include "diagnosis/checks/noisy_units.hpp"
 #include "diagnosis/checks/pose_notes.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/log_columns.hpp"
@@ -367,6 +370,109 @@ TEST(NoisyUnit, OfAPositionOnTheSpotIsNamed) {
   EXPECT_EQ(found[0].kind, "unit");
   EXPECT_EQ(found[0].channel, "position_x_m, position_y_m");
   EXPECT_EQ(found[0].run, spin->name);
+}
+
+/// Set points that hold for some seconds each, with transitions of 1.2 s.
+class SmoothDrive {
+ public:
+  SmoothDrive(std::mt19937& random, double least, double most, double hold_s) {
+    std::uniform_real_distribution<double> level(least, most), hold(0.5 * hold_s, 1.5 * hold_s);
+    for (double t = hold(random); t < 200; t += hold(random)) {
+      starts_s_.push_back(t);
+      levels_.push_back(level(random));
+    }
+  }
+
+  double at(double time_s) const {
+    double value = levels_[0];
+    for (std::size_t k = 1; k < levels_.size() && starts_s_[k] < time_s; ++k) {
+      const double share = std::min(1.0, (time_s - starts_s_[k]) / 1.2);
+      value += (levels_[k] - levels_[k - 1]) * 0.5 * (1 - std::cos(std::numbers::pi * share));
+    }
+    return value;
+  }
+
+ private:
+  std::vector<double> starts_s_{}, levels_{};
+};
+
+double six_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::strtod(text, nullptr);
+}
+
+/// A simulator's logs without noise: eight runs of a weaving, turning or straight robot, as a CSV holds them.
+Dataset noise_free_day(int seed, double rate_Hz, bool motors) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  Dataset day{.robot = testing::nomad()};
+  const Geometry& geometry = day.robot.geometry;
+  for (int r = 0; r < 8; ++r) {
+    const bool straight = random() % 3 == 0;
+    const double hold_s = straight ? 60 : 1.5 + static_cast<double>(random() % 4);
+    const SmoothDrive speed(random, 0.2, 0.6, hold_s),
+        yaw(random, straight ? 0 : -0.5, straight ? 0 : 0.5, hold_s);
+    Trajectory& log = day.runs.emplace_back(joulepath::Run{.name = "run " + std::to_string(r)}).log;
+    double x_m = 0, y_m = 0, heading_rad = 0;
+    const double step_s = 1 / rate_Hz;
+    for (int i = 0; i < std::max(60, static_cast<int>(40 * rate_Hz)); ++i) {
+      const double t = i * step_s, v = speed.at(t), w = yaw.at(t);
+      log.time_s.push_back(t);
+      log.gyro_yaw_rate_rad_s.push_back(six_digits(w));
+      for (const Side side : kSides) {
+        const auto wheel_at = [&](double at_s) {
+          return wheel_speeds_rad_s<double>(geometry, speed.at(at_s), yaw.at(at_s))[side];
+        };
+        const double turning = wheel_at(t),
+                     current_A = 1 + 0.05 * turning + 0.3 * (wheel_at(t + 0.01) - wheel_at(t - 0.01)) / 0.02;
+        log.wheel_speed_rad_s[side].push_back(six_digits(turning));
+        if (!motors) continue;
+        log.motor_current_A[side].push_back(six_digits(current_A));
+        log.motor_voltage_V[side].push_back(six_digits(0.5 * current_A + 1.2 * turning));
+      }
+      log.position_x_m.push_back(six_digits(x_m));
+      log.position_y_m.push_back(six_digits(y_m));
+      log.heading_rad.push_back(six_digits(heading_rad));
+      x_m += v * std::cos(heading_rad) * step_s, y_m += v * std::sin(heading_rad) * step_s;
+      heading_rad += w * step_s;
+    }
+  }
+  return day;
+}
+
+/// Runs without noise differ in how their motion bends, not in their units.
+TEST(NoisyUnit, IsNoneOfRunsWithoutNoise) {
+  int told = 0, days = 0;
+  std::string which;
+  for (const double rate_Hz : {2.0, 5.0, 10.0, 20.0, 50.0})
+    for (const bool motors : {false, true})
+      for (int seed = 0; seed < (rate_Hz > 20 ? 5 : 30); ++seed, ++days)
+        for (const DataCheck& check : noisy_units(noise_free_day(seed, rate_Hz, motors))) {
+          ++told;
+          which += std::to_string(rate_Hz) + " Hz, " + std::to_string(seed) + ": " + check.channel + ", " +
+                   check.evidence + '\n';
+        }
+  EXPECT_EQ(told, 0) << "of " << days << " days\n" << which;
+}
+
+/// Noise beside a motion that the other channels show.
+TEST(NoisyUnit, OfNoisyRunsIsNamedAtEveryRate) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (const double rate_Hz : {10.0, 20.0, 50.0}) {
+    Dataset day = noise_free_day(3, rate_Hz, true);
+    for (joulepath::Run& run : day.runs) {
+      for (double& rate : run.log.gyro_yaw_rate_rad_s) rate += 0.01 * noise(random);
+      for (const Side side : kSides)
+        for (double& speed : run.log.wheel_speed_rad_s[side]) speed += 0.02 * noise(random);
+    }
+    for (double& rate : day.runs[2].log.gyro_yaw_rate_rad_s) rate = 0.01 * noise(random);
+    scale(day.runs[2].log.gyro_yaw_rate_rad_s, 180 / std::numbers::pi);
+    const std::vector<DataCheck> found = noisy_units(day);
+    ASSERT_EQ(found.size(), 1u) << rate_Hz;
+    EXPECT_EQ(found[0].channel, "gyro_yaw_rate_rad_s") << rate_Hz;
+    EXPECT_EQ(found[0].run, "run 2") << rate_Hz;
+  }
 }
 
 /// Effects of the catalog at full size must not make the data suspect.
