@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/checks/small_fit.hpp"
+#include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/plant.hpp"
 #include "model/printable.hpp"
@@ -17,8 +18,10 @@ namespace {
 constexpr double kPiece_m = 0.3;           ///< well above the noise of a localization
 constexpr double kPiece_rad = 0.2;         ///< the same
 constexpr double kStraightest_rad = 0.15;  ///< arc and chord differ by less than 0.1 %
-constexpr double kLeastTold = 0.03;        ///< creep that no fit separates from the radius is smaller
-constexpr double kMostDissent = 1.0 / 3;   ///< of a deviation, between a part of the pieces and all
+constexpr double kBentest_rad = 0.5;  ///< the same after the correction of a circle, by the measured heading
+constexpr double kBlurredReadings = 2;  ///< readings that many 1-sigma widths of the smoothing apart are seen
+constexpr double kLeastTold = 0.03;     ///< creep that no fit separates from the radius is smaller
+constexpr double kMostDissent = 1.0 / 3;  ///< of a deviation, between a part of the pieces and all
 constexpr std::size_t kPiecesToDissent = 4;
 constexpr double kUnit = 3.2;  ///< feet in a meter: factors beyond are of another unit
 
@@ -35,14 +38,72 @@ struct Piece {
 };
 using Pieces = std::vector<Piece>;
 
+using Rows = std::vector<std::size_t>;
+
+/// Rows of a log in which one of the channels has a new value. The first row may repeat an earlier one.
+Rows rows_of_readings(const std::vector<const std::vector<double>*>& channels) {
+  Rows rows;
+  for (std::size_t i = 1; i < channels.front()->size(); ++i)
+    if (std::ranges::any_of(channels,
+                            [&](const auto* channel) { return (*channel)[i] != (*channel)[i - 1]; }))
+      rows.push_back(i);
+  return rows;
+}
+
+/// Whether the log repeats the readings of a slower instrument for longer than the smoothing evens out.
+bool are_held(const Rows& rows, const RunSignals& run) {
+  Rows steps;
+  for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(rows[k] - rows[k - 1]);
+  if (steps.empty()) return false;
+  const auto middle = steps.begin() + std::ssize(steps) / 2;
+  std::ranges::nth_element(steps, middle);
+  return *middle > 1 &&
+         static_cast<double>(*middle) * run.log_period_s > kBlurredReadings * run.kernel_sigma_s;
+}
+
+/// The run at the rows of its pose's readings: the poses as logged, the wheels between the samples around.
+RunSignals at_readings(const RunSignals& run, const Trajectory& log, Rows rows) {
+  std::erase_if(rows, [&](std::size_t i) {
+    return !(log.time_s[i] >= run.time_s[0] && log.time_s[i] <= run.time_s[run.size() - 1]);
+  });
+  const auto logged = [&](const std::vector<double>& channel) {
+    Eigen::VectorXd at(channel.empty() ? 0 : std::ssize(rows));
+    for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = channel[rows[static_cast<std::size_t>(k)]];
+    return at;
+  };
+  RunSignals result{.run_index = run.run_index, .heading_measured = run.heading_measured};
+  result.time_s = logged(log.time_s);
+  result.x_m = logged(log.position_x_m), result.y_m = logged(log.position_y_m);
+  if (run.heading_measured) result.heading_rad = logged(unwrap_angle(log.heading_rad));
+  const auto between = [&](const Eigen::VectorXd& samples) {
+    Eigen::VectorXd at(result.size());
+    for (Eigen::Index k = 0, j = 1; k < at.size(); ++k) {
+      while (j + 1 < run.size() && run.time_s[j] < result.time_s[k]) ++j;
+      const double share = (result.time_s[k] - run.time_s[j - 1]) / (run.time_s[j] - run.time_s[j - 1]);
+      at[k] = samples[j - 1] + share * (samples[j] - samples[j - 1]);
+    }
+    return at;
+  };
+  for (const Side side : kSides) {
+    result.wheel_angle_rad[side] = between(run.wheel_angle_rad[side]);
+    result.wheel_speed_rad_s[side] = between(run.wheel_speed_rad_s[side]);
+    result.wheel_acceleration_rad_s2[side] = between(run.wheel_acceleration_rad_s2[side]);
+  }
+  return result;
+}
+
 /// Ways (m) and yaw angles (rad) of one run, by wheels and pose.
 class PieceReader {
  public:
-  PieceReader(const RunSignals& run, const Geometry& geometry) : run_(run), geometry_(geometry) {}
+  /// `held`: samples of a pose slower than the log, too far apart for straight pieces alone.
+  PieceReader(const RunSignals& run, const Geometry& geometry, bool held)
+      : run_(run), geometry_(geometry), held_(held) {}
 
-  void read(Pieces& ways, Pieces& turns) const {
-    const bool placed = run_.x_m.size() == run_.size() && run_.y_m.size() == run_.size();
-    if (placed) walk(&Twist<double>::speed_m_s, kPiece_m, ways);
+  void read_ways(Pieces& ways) const {
+    if (run_.x_m.size() == run_.size() && run_.y_m.size() == run_.size())
+      walk(&Twist<double>::speed_m_s, kPiece_m, ways);
+  }
+  void read_turns(Pieces& turns) const {
     if (run_.heading_measured) walk(&Twist<double>::yaw_rate_rad_s, kPiece_rad, turns);
   }
 
@@ -56,11 +117,24 @@ class PieceReader {
     for (Eigen::Index from = 0, to = 1; to < run_.size(); ++to) {
       const Twist<double> moved = change(run_.wheel_angle_rad, from, to);
       const bool turned_back = change(run_.wheel_angle_rad, to - 1, to).*along * (moved.*along) <= 0;
-      if (turned_back || (is_way && std::abs(moved.yaw_rate_rad_s) > kStraightest_rad)) from = to;
+      if (turned_back || (is_way && is_bent(from, to, moved))) from = to;
       if (from == to || std::abs(moved.*along) < length) continue;
       add(is_way, from, to, moved, pieces);
       from = to;
     }
+  }
+
+  bool bends_by_heading() const { return held_ && run_.heading_measured; }
+
+  bool is_bent(Eigen::Index from, Eigen::Index to, const Twist<double>& moved) const {
+    return bends_by_heading() ? !(std::abs(run_.heading_rad[to] - run_.heading_rad[from]) <= kBentest_rad)
+                              : std::abs(moved.yaw_rate_rad_s) > kStraightest_rad;
+  }
+
+  /// Of the circle with the measured change of heading; of a straight line where none bends it.
+  double arc_over_chord(Eigen::Index from, Eigen::Index to) const {
+    const double half_rad = bends_by_heading() ? 0.5 * (run_.heading_rad[to] - run_.heading_rad[from]) : 0.0;
+    return std::abs(half_rad) < 1e-6 ? 1.0 : half_rad / std::sin(half_rad);
   }
 
   void add(bool is_way, Eigen::Index from, Eigen::Index to, const Twist<double>& moved,
@@ -72,7 +146,8 @@ class PieceReader {
     const Piece piece =
         is_way ? Piece{{sign * way, sign * gained.speed_m_s, sign * pushed.speed_m_s,
                         sign * gained.speed_m_s * way / time_s},
-                       std::hypot(run_.x_m[to] - run_.x_m[from], run_.y_m[to] - run_.y_m[from]),
+                       arc_over_chord(from, to) *
+                           std::hypot(run_.x_m[to] - run_.x_m[from], run_.y_m[to] - run_.y_m[from]),
                        time_s,
                        run_.run_index}
                : Piece{{sign * turn, sign * gained.yaw_rate_rad_s, sign * pushed.yaw_rate_rad_s, sign * way},
@@ -84,7 +159,23 @@ class PieceReader {
 
   const RunSignals& run_;
   const Geometry& geometry_;
+  bool held_{};
 };
+
+/// Reads one run, at the readings of its position and of its heading where the log holds them.
+void read_run(const RunSignals& run, const Trajectory& log, const Geometry& geometry, Pieces& ways,
+              Pieces& turns) {
+  const auto read = [&](const Rows& rows, auto reading, Pieces& pieces) {
+    const bool held = run.size() > 1 && are_held(rows, run);
+    if (held)
+      (PieceReader(at_readings(run, log, rows), geometry, true).*reading)(pieces);
+    else
+      (PieceReader(run, geometry, false).*reading)(pieces);
+  };
+  if (!log.position_x_m.empty() && !log.position_y_m.empty())
+    read(rows_of_readings({&log.position_x_m, &log.position_y_m}), &PieceReader::read_ways, ways);
+  if (run.heading_measured) read(rows_of_readings({&log.heading_rad}), &PieceReader::read_turns, turns);
+}
 
 /// The pose's way over the wheels', of like pieces.
 struct Factor {
@@ -149,7 +240,8 @@ PoseGeometry geometry_by_pose(const Dataset& dataset, const std::vector<RunSigna
   const Geometry geometry = make_plant(dataset.robot).robot.geometry;
   Pieces ways, turns;
   for (const RunSignals& run : runs)
-    if (!dataset.runs[run.run_index].wheels_from_body_speeds) PieceReader(run, geometry).read(ways, turns);
+    if (!dataset.runs[run.run_index].wheels_from_body_speeds)
+      read_run(run, dataset.runs[run.run_index].log, geometry, ways, turns);
   PoseGeometry told;
   const std::optional<Factor> way = factor_of(ways), turn = factor_of(turns);
   if (way && way->is_surely_beyond(told_beyond(dataset.robot, "wheel_radius_m"))) told.radius = way->value;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "diagnosis/values/diagnosis.hpp"
+#include "model/log_columns.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {
@@ -47,6 +49,33 @@ Dataset in_another_frame(Dataset day, std::size_t late) {
     }
   }
   return day;
+}
+
+/// A pose that has a new value at every `rows`-th row only, and noise of its own.
+Dataset with_held_pose(Dataset day, std::size_t rows, double noise_m) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, noise_m);
+  for (joulepath::Run& run : day.runs)
+    for (auto* pose : {&run.log.position_x_m, &run.log.position_y_m, &run.log.heading_rad})
+      for (std::size_t i = 0; i < pose->size(); ++i)
+        (*pose)[i] = i % rows == 0 ? (*pose)[i] + noise(random) : (*pose)[i - 1];
+  return day;
+}
+
+/// Every so many rows of a log.
+Dataset thinned_to(Dataset day, std::size_t stride) {
+  for (joulepath::Run& run : day.runs)
+    for (const LogColumn& column : log_columns()) {
+      std::vector<double>& channel = column.channel(run.log);
+      for (std::size_t i = 0; i * stride < channel.size(); ++i) channel[i] = channel[i * stride];
+      channel.resize((channel.size() + stride - 1) / stride);
+    }
+  return day;
+}
+
+double log_rate_Hz(const Dataset& day) {
+  const std::vector<double>& time_s = day.runs[0].log.time_s;
+  return static_cast<double>(time_s.size() - 1) / (time_s.back() - time_s.front());
 }
 
 class PoseGeometryTest : public ::testing::Test {
@@ -92,6 +121,38 @@ TEST_F(PoseGeometryTest, IsSilentOnTheRightFile) {
       for (joulepath::Run& run : day.runs) run.log.position_x_m.clear();
       EXPECT_TRUE(is_silent(day)) << robot << ' ' << effect << ", no position";
     }
+}
+
+/// A localization slower than the log, here of 20 Hz: its readings are where the log repeats none.
+TEST_F(PoseGeometryTest, TellsTheFactorOfAPoseThatTheLogHolds) {
+  for (const char* robot : {"nomad", "tug"}) {
+    Dataset day = day_on(robot, "none", 12);
+    day = thinned_to(day, static_cast<std::size_t>(std::lround(log_rate_Hz(day) / 20)));
+    for (const std::size_t rows : {1u, 5u, 10u})
+      for (const double noise_m : {0.0, 0.01}) {
+        const Dataset held = with_held_pose(day, rows, noise_m);
+        const auto where = [&](double factor) {
+          return std::string(robot) + ", " + std::to_string(rows) + " rows, " + std::to_string(noise_m) +
+                 " m, " + std::to_string(factor);
+        };
+        for (const double factor : {0.5, 0.9, 1.1, 2.0}) {
+          const PoseGeometry radius = told_by(with_file(held, factor, 1));
+          EXPECT_NEAR(radius.radius * factor, 1, 0.015) << where(factor);
+          EXPECT_EQ(radius.half_track, 1) << where(factor);
+        }
+        for (const double factor : {0.5, 0.8, 1.25, 2.0}) {
+          const PoseGeometry track = told_by(with_file(held, 1, factor));
+          EXPECT_NEAR(track.half_track * factor, 1, 0.03) << where(factor);
+          EXPECT_NEAR(track.half_track / told_by(with_file(day, 1, factor)).half_track, 1, 0.015)
+              << where(factor);
+          EXPECT_EQ(track.radius, 1) << where(factor);
+        }
+        for (const double factor : {0.99, 1.0, 1.01}) {
+          EXPECT_EQ(told_by(with_file(held, factor, 1)).radius, 1) << where(factor);
+          EXPECT_EQ(told_by(with_file(held, 1, factor)).half_track, 1) << where(factor);
+        }
+      }
+  }
 }
 
 TEST_F(PoseGeometryTest, IsSilentWhereTheWheelsAreThoseOfTheFile) {
