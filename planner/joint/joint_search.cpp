@@ -212,7 +212,8 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
   return paths;
 }
 
-std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<std::vector<Sketch>> starts,
+std::vector<JointPaths> best_joint_paths(const JointQuery& query,
+                                         const std::vector<std::vector<Sketch>>& starts,
                                          JointCounts* counted) {
   JointCounts counts;
   const std::vector<Candidate> found = explored(query, starts, counts);

@@ -32,7 +32,7 @@ struct JointCounts {
 /// given up as soon as it cannot be the best, the best of them on a finer one. Each reaches its goals to
 /// rounding and is free of collisions along its whole length. Deterministic.
 [[nodiscard]] std::vector<JointPaths> best_joint_paths(const JointQuery& query,
-                                                       std::vector<std::vector<Sketch>> starts,
+                                                       const std::vector<std::vector<Sketch>>& starts,
                                                        JointCounts* counts = nullptr);
 
 /// The cheapest of the starts on the coarse grid alone: a start for a longer program, its paths meet their

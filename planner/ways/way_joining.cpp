@@ -294,7 +294,7 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
 /// The cheapest of the present paths and those of the joint program that keeps every limit; the present ones
 /// where none does.
 void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
-                               std::array<Starts, 2> starts, double present_J) {
+                               const std::array<Starts, 2>& starts, double present_J) {
   struct Candidate {
     double cost_J{};
     std::vector<Part> parts{};
@@ -302,8 +302,8 @@ void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
   const std::vector<Part> present = parts_;
   std::vector<Candidate> candidates;
   if (std::isfinite(present_J)) candidates.push_back({present_J, present});
-  for (Starts& group : starts)
-    for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
+  for (const Starts& group : starts)
+    for (const joint::JointPaths& joined : joint::best_joint_paths(query, group)) {
       parts_ = present;
       take(first, joined);
       if (const double cost_J = driven_J(first, count); std::isfinite(cost_J))
@@ -372,7 +372,7 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
             along_path(present[k].path, half_track_m, pieces_for(present[k].path), joint::Turns::in_place));
     }
   }
-  take_cheapest(first, count, query, std::move(starts), present_J);
+  take_cheapest(first, count, query, starts, present_J);
 }
 
 bool RefinedRun::barred() const {

@@ -66,7 +66,7 @@ class RefinedRun {
   bool drivable(std::size_t first, std::size_t count) const;
   void take(std::size_t first, const joint::JointPaths& joined);
   void take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
-                     std::array<Starts, 2> starts, double present_J);
+                     const std::array<Starts, 2>& starts, double present_J);
   bool may_join(std::size_t k) const;
   void join(std::size_t first, std::size_t count);
   PathScore as_driven(std::size_t k) const;

@@ -42,7 +42,7 @@ std::vector<JointPaths> paths_between(const Robot& robot, const Pose& start, con
   std::vector<std::vector<Sketch>> starts;
   for (Sketch& word : words(start, goal, robot.geometry.half_track_m, {0.15, 0.5}))
     starts.push_back({std::move(word)});
-  return best_joint_paths({start, {goal}, {law_of(robot)}, {}, checker}, std::move(starts));
+  return best_joint_paths({start, {goal}, {law_of(robot)}, {}, checker}, starts);
 }
 
 /// The energy of a path by the profile solver, time free.
