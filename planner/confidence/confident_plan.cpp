@@ -264,6 +264,13 @@ class ConfidentPlanner {
     return plan;
   }
 
+  /// Whether another mission or robot is planned with this confidence.
+  bool is_promised(const MissionRequest& mission, const MissionWorld& world) const {
+    ConfidentPlanner planner(mission, world, quick(), plan_once_);
+    planner.offers_ = false;
+    return is_driven(planner.plan());
+  }
+
   /// The relaxation of a limit that was planned with a share of it is one of the whole limit, with which the
   /// mission is planned; none where no value near it is enough.
   void offer_whole_limits(Infeasibility& reason) const {
@@ -279,9 +286,7 @@ class ConfidentPlanner {
       for (const double more : kMore) {
         MissionWorld other = world_;
         set_limit(other.robot, row, more * whole);
-        ConfidentPlanner planner(mission_, other, quick(), plan_once_);
-        planner.offers_ = false;
-        if (!is_driven(planner.plan())) continue;
+        if (!is_promised(mission_, other)) continue;
         reason.relaxation[std::string(row.key)] = more * whole;
         break;
       }
@@ -295,9 +300,7 @@ class ConfidentPlanner {
     if (offered == reason.relaxation.end() || !heats) return;
     MissionRequest charged = mission_;
     charged.start.battery_fraction = offered->second;
-    ConfidentPlanner planner(charged, world_, quick(), plan_once_);
-    planner.offers_ = false;
-    if (!is_driven(planner.plan())) reason.relaxation.erase(offered);
+    if (!is_promised(charged, world_)) reason.relaxation.erase(offered);
   }
 
   /// What a verdict on the reserve offers is judged again when it is planned with: it has some slack.
@@ -314,8 +317,10 @@ class ConfidentPlanner {
   Plan as_verdict(Plan refused) const {
     if (refused.infeasibility) {
       Infeasibility& reason = refused.infeasibility->reason;
-      if (offers_) offer_whole_limits(reason);
-      if (offers_) drop_vain_charge(reason);
+      if (offers_) {
+        offer_whole_limits(reason);
+        drop_vain_charge(reason);
+      }
       name_margin(refused.winding, reason);
       reason.message = "with " + percent(confidence_) + ": " + reason.message +
                        "; the plan without margins keeps its promises with " +

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/joint/drive_law.hpp"
 #include "planner/nlp/interval/jet.hpp"
@@ -112,10 +113,9 @@ Real motor_power_W(const WheelLaw& law, const BodyMotion<Real>& body, const Real
       std::array{&sign, &v, &w, &body.acceleration_m_s2, &body.yaw_acceleration_rad_s2});
   if (law.yaw_rate_squared != 0) current_A += law.yaw_rate_squared * (w * w);
   if (law.speed_by_yaw_rate != 0) current_A += law.speed_by_yaw_rate * (v * w);
-  const Real* const current = &current_A;
   const Real voltage_V =
       linear(law.emf, std::array{law.resistance, law.emf_speed, law.emf_yaw_rate, law.emf_sign},
-             std::array{current, &v, &w, &sign});
+             std::array{&std::as_const(current_A), &v, &w, &sign});
   return voltage_V * current_A;
 }
 
