@@ -92,7 +92,7 @@ class FrontCommand : public Command {
     expect_steps(points_ + std::min(points_, baseline_points_));
     const auto [plans, front] = mission_front(mission, world, options_.plan, points_, open);
     const Plan& plan = plans.front();
-    if (plan.status > SolveStatus::feasible) {
+    if (!is_driven(plan)) {
       std::cerr << "no front: " << plan.message << "\n";
       return kInfeasibleOrFailed;
     }
@@ -149,7 +149,7 @@ class FrontCommand : public Command {
     fastest.objective.minimize = Objective::Minimize::time;
     fastest.objective.confidence = confidence_;
     const Plan held = plan_mission(fastest, world, options_.plan);
-    if (held.status > SolveStatus::feasible) return {.reason = held.message};
+    if (!is_driven(held)) return {.reason = held.message};
     expect_steps(points_);
     SureFront sure{.limit_shares = held.confidence->limit_shares,
                    .reserve_margin = held.confidence->reserve_margin};
@@ -157,7 +157,7 @@ class FrontCommand : public Command {
     careful.robot = with_margins(std::move(careful.robot), sure.limit_shares, sure.reserve_margin);
     const MissionFront all =
         mission_front(mission, careful, with_limit_shares(options_.plan, sure.limit_shares), points_, open);
-    if (all.plans.front().status > SolveStatus::feasible) return {.reason = all.plans.front().message};
+    if (!is_driven(all.plans.front())) return {.reason = all.plans.front().message};
     sure.points = all.front.points;
     for (const std::size_t k : chosen(sure.points.size(), kJudged))
       if (auto account = judged(all.plans[sure.points[k].drive], mission, world, careful, sure,
@@ -177,7 +177,7 @@ class FrontCommand : public Command {
     PlanOptions alone = with_limit_shares(options_.plan, sure.limit_shares);
     alone.baselines = alone.path_bound = false;
     const Plan driven = plan_mission(timed, careful, alone);
-    if (driven.status > SolveStatus::feasible) return std::nullopt;
+    if (!is_driven(driven)) return std::nullopt;
     return kept_share(driven, timed, world.robot, *confidence_);
   }
 

@@ -101,7 +101,7 @@ Plan leg_plan(const FleetFloor& floor, const LegQuestion& leg, const SharedAnswe
   const FleetType& type = floor.types[leg.type];
   const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .answers = answers};
   Plan plan = plan_mission(leg_mission(floor, leg), type.world, options, type.space.get());
-  if (plan.status > SolveStatus::feasible) refuse_leg(floor, leg, plan.message);
+  if (!is_driven(plan)) refuse_leg(floor, leg, plan.message);
   return plan;
 }
 

@@ -32,7 +32,7 @@ LegLoss loss_on(const LegPlan& leg, const Plant& nominal) {
   }
   if (leg.prescribed) {
     EnergySum sum(plant);
-    LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
+    LegMotion(leg, plant).integrate([&](const EnergyNode& node, double) { sum.add(node); });
     loss = {sum.battery_loss_J(), sum.lowest_voltage_V()};
   }
   const double standby_W = plant.robot.power.standby_W, rest_s = resting_s(leg, standby_W);

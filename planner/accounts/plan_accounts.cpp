@@ -166,7 +166,7 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
   } else if (!(plan.worst_violation <= 1e-6)) {
     plan.status = SolveStatus::failed;
     plan.message = breach(plan);
-  } else if (plan.status <= SolveStatus::feasible) {
+  } else if (is_driven(plan)) {
     plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
   }
 }

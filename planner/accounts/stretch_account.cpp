@@ -36,13 +36,8 @@ DriveAccount drive_account(const ProfileRequest& request, const Profile& profile
   EnergySum sum(request.plant);
   integrate_profile(motion, profile, 0.0, profile.duration_s(), [&](const EnergyNode& node) {
     sum.add(node);
-    for (std::size_t i = 0; i < plant.shifted.size(); ++i) {
-      const auto power_W = [&](const Plant& other) {
-        return drive_power_W(other, energy_node(other, node.instant, node.time_s));
-      };
-      account.sigma_shift_J[i] +=
-          0.5 * node.weight_s * (power_W(plant.shifted[i][0]) - power_W(plant.shifted[i][1]));
-    }
+    for (std::size_t i = 0; i < plant.shifted.size(); ++i)
+      account.sigma_shift_J[i] += node.weight_s * power_shift_W(plant.shifted[i], node);
   });
   account.energy = sum.by_cause();
   account.energy.standby_J += request.plant.robot.power.standby_W * profile.wait_s;
@@ -65,6 +60,13 @@ UncertainPlant uncertain(Plant plant) {
     all.shifted.push_back(
         {with_error(all.plant, nuisance, nuisance.sigma), with_error(all.plant, nuisance, -nuisance.sigma)});
   return all;
+}
+
+double power_shift_W(const std::array<Plant, 2>& shifted, const EnergyNode& node) {
+  const auto power_W = [&](const Plant& other) {
+    return drive_power_W(other, energy_node(other, node.instant, node.time_s));
+  };
+  return 0.5 * (power_W(shifted[0]) - power_W(shifted[1]));
 }
 
 void account_for(StretchPlan& stretch, const UncertainPlant& plant, const SharedAnswers& answers) {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "model/nuisance.hpp"
+#include "model/quadrature.hpp"
 #include "planner/cache/answer_cache.hpp"
 #include "planner/values/plan.hpp"
 
@@ -14,6 +15,9 @@ struct UncertainPlant {
   std::vector<std::array<Plant, 2>> shifted{};  ///< per entry of `uncertainty:`, one sigma more and one less
 };
 [[nodiscard]] UncertainPlant uncertain(Plant plant);
+
+/// What one sigma of a constant adds to the drives' power (W) at a node, to first order.
+[[nodiscard]] double power_shift_W(const std::array<Plant, 2>& shifted, const EnergyNode& node);
 
 /// A plant whose constant is (1 + fraction) times as large.
 [[nodiscard]] Plant with_error(Plant plant, const Nuisance& nuisance, double fraction);

@@ -165,7 +165,7 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
 
 void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
                      const RouteSpace* space) {
-  if (plan.status > SolveStatus::feasible || plan.legs.empty()) return;
+  if (!is_driven(plan) || plan.legs.empty()) return;
   PlanBounds bounds(plan, mission, plant, world.robot, space);
   const double standby_W = plant.robot.power.standby_W;
   double driving_s = 0, spent_J = 0, lowest_W = kNoLimit, highest_W = 0;

@@ -52,8 +52,6 @@ void take_choices(Plan& plan, const Plan& chosen) {
   plan.visit = chosen.visit;
 }
 
-bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
-
 bool is_too_late(const Plan& plan) { return plan.infeasibility && is_late(plan.infeasibility->reason); }
 
 /// The verdict on a mission that cannot be planned whatever is asked for.

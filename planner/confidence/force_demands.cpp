@@ -80,7 +80,7 @@ std::vector<ForceDemands::Place> ForceDemands::all_places(const Plant& plant) co
         }
     }
     if (leg.prescribed)
-      motion.integrate([&](const EnergyNode& node) {
+      motion.integrate([&](const EnergyNode& node, double) {
         places.push_back({k, count, node.instant.motion, node.instant.site});
       });
     if (leg.prescribed) ++count;

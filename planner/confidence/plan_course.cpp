@@ -42,7 +42,7 @@ PlanCourses::PlanCourses(const Plan& plan, const Plant& plant, const ChargeState
   for (const LegPlan& leg : plan.legs) {
     const Plant here = plant_in(plant, leg.state);
     auto& nodes = nodes_.emplace_back();
-    LegMotion(leg, here).integrate([&](const EnergyNode& node) { nodes.push_back(node); });
+    LegMotion(leg, here).integrate([&](const EnergyNode& node, double) { nodes.push_back(node); });
   }
 }
 

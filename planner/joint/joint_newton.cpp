@@ -78,9 +78,14 @@ class JointNewton::Steps {
   template <class Each>
   void for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each);
   const DriveLaw& law(const Part& part) const { return program_.laws[program_.pieces[part.piece].law]; }
-  double row_value(std::size_t k, std::size_t r, const SegmentValues<double>& at) const {
+  template <class Real>
+  double row_value(std::size_t k, std::size_t r, const SegmentValues<Real>& at) const {
     const RowLaw& row = row_laws_[parts_[k].piece][r];
-    return 1 + row.slope * at.bounded[row.quantity];
+    const Real& quantity = at.bounded[row.quantity];
+    if constexpr (std::is_same_v<Real, double>)
+      return 1 + row.slope * quantity;
+    else
+      return 1 + row.slope * quantity.value;
   }
   double loss(const Part& part) const { return 1 - law(part).efficiency; }
   std::array<Index, 3> columns(const Part& part) const {
@@ -139,6 +144,7 @@ class JointNewton::Steps {
   double penalty_{0}, step_{1};
 
   bool assembled_{};  ///< at the present state
+  bool stalled_{};
   Sums sums_{};
   std::array<double, kPatience> recent_J_{};  ///< costs of the last steps
   JointSolution solution_{};
@@ -408,10 +414,7 @@ JointNewton::Steps::Sums JointNewton::Steps::assemble() {
   jets_.resize(parts_.size());
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     jets_[k] = values_of<Jet>(k, b_, p_);
-    for (std::size_t r = 0; r < kSegmentRows; ++r) {
-      const RowLaw& row = row_laws_[parts_[k].piece][r];
-      rows_[k][r].value = 1 + row.slope * jets_[k].bounded[row.quantity].value;
-    }
+    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].value = row_value(k, r, jets_[k]);
     for (std::size_t c = 0; c < 2; ++c) channels_[k][c].E = jets_[k].energy_J[c].value;
     add_part(k, sums);
   }
@@ -650,7 +653,7 @@ JointSolution JointNewton::Steps::run(const NewtonOptions& options) {
   for (;; ++solution_.steps, assembled_ = false) {
     if (!assembled_) look_at(options);
     const double error = sums_.error();
-    if (solution_.converged || sums_.lost || !std::isfinite(error) || error < options.pause ||
+    if (stalled_ || solution_.converged || sums_.lost || !std::isfinite(error) || error < options.pause ||
         solution_.steps == options.most_steps)
       break;
     const bool settled = sums_.complementarity < 0.05 * sums_.cost && sums_.primal < 0.01 * sums_.cost &&
@@ -660,9 +663,11 @@ JointSolution JointNewton::Steps::run(const NewtonOptions& options) {
       break;
     }
     direction();
-    if (!dp_.allFinite() || !db_.allFinite()) break;
+    stalled_ = !dp_.allFinite() || !db_.allFinite();
+    if (stalled_) break;
     search(step_rows());
-    if (step_ < kStalled) break;
+    stalled_ = step_ < kStalled;
+    if (stalled_) break;
     lower_barrier(options.tolerance);
   }
   solution_.parameters = p_;

@@ -55,7 +55,7 @@ bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
 }
 
 /// The solution on a finer grid from a coarse one; the coarse one where the method fails without a gain.
-Candidate refined(const Candidate& coarse, JointCounts& counts) {
+Candidate refined(const Candidate& coarse) {
   Candidate fine = coarse;
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
   for (std::size_t j = 0; j < fine.start.program.pieces.size(); ++j) {
@@ -68,7 +68,6 @@ Candidate refined(const Candidate& coarse, JointCounts& counts) {
   fine.start.parameters = coarse.solution.parameters;
   const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
   fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
-  counts.steps += fine.solution.steps;
   const bool better =
       fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
   return better ? fine : coarse;
@@ -106,7 +105,7 @@ std::vector<Sketch> sketches_of(const Program& program, const Eigen::VectorXd& p
 
 /// Paths that meet their goals to rounding and are free; rows only at nodes let a path cut a corner, which
 /// a larger margin mends.
-std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
+std::optional<JointPaths> finished(Candidate candidate) {
   for (int round = 0; round <= kMarginRounds; ++round) {
     Eigen::VectorXd exact = candidate.solution.parameters;
     reach_targets(candidate.start.program, exact, 10);
@@ -123,7 +122,6 @@ std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
     candidate.start.parameters = candidate.solution.parameters;
     const JointSolution again = JointNewton(candidate.start, kMarginGap, candidate.solution.squares)
                                     .run({.tolerance = kFineTolerance});
-    counts.steps += again.steps;
     if (!again.parameters.allFinite()) return std::nullopt;
     candidate.solution = again;
   }
@@ -140,8 +138,7 @@ CurveSegment segment_of(const Program& program, const Piece& piece, const Pose& 
 
 /// All starts on the coarse grid, in the order of their cost. Each goes a part of its way; then the one that
 /// promises most goes on first, and the others only as long as they may become the best.
-std::vector<Candidate> explored(const JointQuery& query, const std::vector<std::vector<Sketch>>& starts,
-                                JointCounts& counts) {
+std::vector<Candidate> explored(const JointQuery& query, const std::vector<std::vector<Sketch>>& starts) {
   struct Run {
     Start start{};
     JointNewton newton;
@@ -170,9 +167,6 @@ std::vector<Candidate> explored(const JointQuery& query, const std::vector<std::
     if (run->solution.cost_J > kHopeless * least_J) break;
     run->solution = run->newton.run({.most_steps = kMostSteps, .give_up_J = kGiveUp * best_J});
     const JointSolution& solution = run->solution;
-    ++counts.starts;
-    counts.steps += solution.steps;
-    counts.failed += !solution.converged && !(solution.cost_J > kGiveUp * best_J);
     if (!solution.feasible) continue;
     if (solution.converged) best_J = std::min(best_J, solution.cost_J);
     least_J = std::min(least_J, solution.cost_J);
@@ -213,10 +207,8 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
 }
 
 std::vector<JointPaths> best_joint_paths(const JointQuery& query,
-                                         const std::vector<std::vector<Sketch>>& starts,
-                                         JointCounts* counted) {
-  JointCounts counts;
-  const std::vector<Candidate> found = explored(query, starts, counts);
+                                         const std::vector<std::vector<Sketch>>& starts) {
+  const std::vector<Candidate> found = explored(query, starts);
   std::vector<JointPaths> best;
   double last_J = 0;
   for (const Candidate& candidate : found) {
@@ -224,18 +216,16 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query,
     if (best.size() == kRefined || (!best.empty() && cost_J > kNearBest * best.front().cost_J)) break;
     if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
     last_J = cost_J;
-    if (auto paths = finished(refined(candidate, counts), counts)) best.push_back(std::move(*paths));
+    if (auto paths = finished(refined(candidate))) best.push_back(std::move(*paths));
   }
   std::stable_sort(best.begin(), best.end(),
                    [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
-  if (counted) *counted = counts;
   return best;
 }
 
 std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
                                             const std::vector<std::vector<Sketch>>& starts) {
-  JointCounts counts;
-  const std::vector<Candidate> found = explored(query, starts, counts);
+  const std::vector<Candidate> found = explored(query, starts);
   if (found.empty()) return std::nullopt;
   const auto& [start, solution] = found.front();
   return JointPaths{paths_of(start.program, solution.parameters), solution.cost_J,

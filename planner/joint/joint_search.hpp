@@ -24,19 +24,14 @@ struct JointPaths {
   std::vector<Sketch> sketches{};  ///< the same legs as starts
 };
 
-struct JointCounts {
-  int starts{}, failed{}, steps{};
-};
-
 /// The cheapest paths found from the starts, in the order of their cost: all starts on a coarse grid, a start
 /// given up as soon as it cannot be the best, the best of them on a finer one. Each reaches its goals to
 /// rounding and is free of collisions along its whole length. Deterministic.
 [[nodiscard]] std::vector<JointPaths> best_joint_paths(const JointQuery& query,
-                                                       const std::vector<std::vector<Sketch>>& starts,
-                                                       JointCounts* counts = nullptr);
+                                                       const std::vector<std::vector<Sketch>>& starts);
 
 /// The cheapest of the starts on the coarse grid alone: a start for a longer program, its paths meet their
-/// goals to percents.
+/// goals to a centimetre.
 [[nodiscard]] std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
                                                           const std::vector<std::vector<Sketch>>& starts);
 

@@ -35,7 +35,7 @@ inline double rounded_sign(double x, double width) { return std::tanh(x / width)
 inline constexpr double kSignWidth = 0.04;
 
 /// Quantities of a segment that limits bound: squared speed, lateral acceleration and squared yaw rate at its
-/// end; then per end gain of speed in the direction of travel and yaw acceleration.
+/// end; then per end acceleration along the heading and yaw acceleration.
 inline constexpr std::size_t kSegmentQuantities = 7, kCapQuantities = 3;
 /// Rows of a segment; each is a limit's unused share, >= 0. The first ones hold at its end alone.
 inline constexpr std::size_t kSegmentRows = 12, kCapRows = 4;

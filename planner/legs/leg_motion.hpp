@@ -26,13 +26,20 @@ class LegMotion {
   /// use standby power.
   [[nodiscard]] double energy_J(double from_s, double to_s) const;
 
-  /// The nodes of the energy integral of the whole leg; waits and dwell have none.
+  /// Calls visit(node, elapsed_s) for the nodes of the energy integral of the whole leg; waits and dwell have
+  /// none.
   template <class Visit>
   void integrate(Visit&& visit) const {
-    for (std::size_t k = 0; k < stretches_.size(); ++k)
-      integrate_profile(stretches_[k], leg_->stretches[k].profile, 0.0,
-                        leg_->stretches[k].profile.duration_s(), visit);
-    if (prescribed_) prescribed_->integrate_between(prescribed_->start_s(), prescribed_->end_s(), visit);
+    double begin_s = 0;
+    const auto visit_node = [&](const EnergyNode& node) { visit(node, begin_s + node.time_s); };
+    for (std::size_t k = 0; k < stretches_.size(); ++k) {
+      const Profile& profile = leg_->stretches[k].profile;
+      integrate_profile(stretches_[k], profile, 0.0, profile.duration_s(), visit_node);
+      begin_s += profile.duration_s();
+    }
+    if (!prescribed_) return;
+    begin_s -= prescribed_->start_s();
+    prescribed_->integrate_between(prescribed_->start_s(), prescribed_->end_s(), visit_node);
   }
 
  private:

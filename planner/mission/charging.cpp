@@ -132,8 +132,6 @@ struct Attempt {
   Plan plan{};
 };
 
-bool drives(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
-
 /// The quality of an attempt: without a breach, less energy is better; else a later breach is better.
 std::pair<bool, double> rank(const Plan& plan) {
   return touches_reserve(plan) ? std::pair(false, static_cast<double>(*plan.battery->fails_on_leg))
@@ -171,13 +169,13 @@ class StopSearch {
       // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
       const bool further =
           touches_reserve(plan) && *plan.battery->fails_on_leg > *from.plan.battery->fails_on_leg + 1;
-      if (drives(plan)) dear_J = std::min(dear_J, kDear * estimate_J);
-      if (drives(plan) || further) attempts.push_back({std::move(candidate.mission), std::move(plan)});
+      if (is_driven(plan)) dear_J = std::min(dear_J, kDear * estimate_J);
+      if (is_driven(plan) || further) attempts.push_back({std::move(candidate.mission), std::move(plan)});
     }
     std::stable_sort(attempts.begin(), attempts.end(),
                      [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });
     for (Attempt& attempt : attempts) {
-      if (drives(attempt.plan)) return std::optional(std::move(attempt));
+      if (is_driven(attempt.plan)) return std::optional(std::move(attempt));
       if (auto found = beyond(attempt, stops + 1)) return found;
     }
     return std::nullopt;
@@ -195,7 +193,7 @@ Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& 
   if (!mission.charging || !touches_reserve(failed)) return failed;
   if (auto found = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) {
     if (!plan_refined) return std::move(found->plan);
-    if (Plan plan = plan_refined(found->mission); drives(plan)) return plan;
+    if (Plan plan = plan_refined(found->mission); is_driven(plan)) return plan;
   }
   if (plan_refined)
     if (auto found = StopSearch(plant, plan_refined, kMostRefined).beyond({mission, failed}, 0))

@@ -146,8 +146,6 @@ SettledPlan settled_from(std::vector<LegState> states, const Robot& robot, const
   }
 }
 
-bool drives_within_limits(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
-
 /// The bound of a leg follows from that of the same path in easier states, at whatever price of time mu:
 /// E(T) >= bound(T0) + mu (T0 - T). Nothing where the paths differ, or where the bound is one of time.
 double bound_from(const LegPlan& easiest, const LegPlan& leg) {
@@ -161,7 +159,7 @@ double bound_from(const LegPlan& easiest, const LegPlan& leg) {
 /// A plan is bounded by the one in the easiest states, cold windings and undrawn charge: with less resistance
 /// each motion needs less, with more voltage more motions are possible.
 void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
-  if (!drives_within_limits(plan) || std::isnan(plan.gap_percent)) return;
+  if (!is_driven(plan) || std::isnan(plan.gap_percent)) return;
   double bound_J = 0;
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
@@ -180,7 +178,7 @@ void bound_by(Plan& plan, const Plan& easiest, double accuracy) {
 
 /// How far (K) a plan's windings are above their limit; nothing where it is refused for another reason.
 std::optional<double> above_limit_K(const Plan& plan) {
-  if (plan.winding && (drives_within_limits(plan) || is_too_hot(plan))) return plan.winding->above_limit_K;
+  if (plan.winding && (is_driven(plan) || is_too_hot(plan))) return plan.winding->above_limit_K;
   return std::nullopt;
 }
 
@@ -198,14 +196,14 @@ std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, const Plan&
   constexpr double kLeastPrice = 0.02, kMostPrice = 45, kFactor = 9, kClose = 1.05, kClose_K = 0.1;
   double good = kMostPrice, bad = kLeastPrice;
   Plan cool = at(good);
-  for (; !drives_within_limits(cool); cool = at(good))
+  for (; !is_driven(cool); cool = at(good))
     if (is_too_hot(cool) || (good /= kFactor) < kLeastPrice) return std::nullopt;
   std::optional<double> bad_K = above_limit_K(hot), good_K = above_limit_K(cool);
   while (!any_price && good > kClose * bad && !(good_K && *good_K > -kClose_K)) {
     const double middle = price_between(bad, bad_K, good, good_K);
     Plan between = at(middle);
     const std::optional<double> between_K = above_limit_K(between);
-    if (drives_within_limits(between))
+    if (is_driven(between))
       good = middle, good_K = between_K, cool = std::move(between);
     else
       bad = middle, bad_K = between_K;

@@ -65,7 +65,8 @@ void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
     leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
     return;
   }
-  leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
+  leg.in_least_time = std::isinf(price_W);
+  leg.price_of_time_W = leg.in_least_time ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;
   const double wait_s = wait_of(results, duration_s);
   for (std::size_t k = 0; k < results.size(); ++k) {
@@ -288,25 +289,24 @@ std::optional<RouteSpace> route_space(const MissionRequest& mission, const Missi
 
 namespace {
 
-bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
-
 bool minimizes_time(const MissionRequest& mission) {
   return mission.objective.minimize == Objective::Minimize::time;
+}
+
+/// Prices of time of the legs whose ways are searched.
+std::vector<double> searched_prices_W(const Plan& plan, const MissionRequest& mission) {
+  std::vector<double> price_W;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    if (searches(mission.legs[k]))
+      price_W.push_back(plan.legs[k].in_least_time ? kNoLimit : plan.legs[k].price_of_time_W);
+  return price_W;
 }
 
 /// Whether the searched legs of a plan pay the price at which their ways were chosen.
 bool pays(const Plan& plan, const MissionRequest& mission, double way_price_W) {
   if (minimizes_time(mission)) return true;
-  std::vector<double> price_W;
-  for (std::size_t k = 0; k < plan.legs.size(); ++k)
-    price_W.push_back(searches(mission.legs[k]) ? plan.legs[k].price_of_time_W : way_price_W);
+  const std::vector<double> price_W = searched_prices_W(plan, mission);
   return !moved(std::vector<double>(price_W.size(), way_price_W), price_W);
-}
-
-double highest_price_W(const Plan& plan) {
-  double price_W = 0;
-  for (const LegPlan& leg : plan.legs) price_W = std::max(price_W, leg.price_of_time_W);
-  return price_W;
 }
 
 /// The best of several plans of one mission. A trial that the mission's keys refuse does not count beside
@@ -326,7 +326,7 @@ class BestPlan {
   }
 
   const std::optional<Plan>& best() const { return best_; }
-  bool is_late() const { return best_ && late(*best_); }
+  bool ends_late() const { return best_ && best_->infeasibility && is_late(best_->infeasibility->reason); }
 
   Plan plan() && {
     if (!best_) std::rethrow_exception(refused_);
@@ -334,16 +334,15 @@ class BestPlan {
   }
 
  private:
-  static const Infeasibility* late(const Plan& plan) {
-    const bool so = plan.infeasibility && joulepath::is_late(plan.infeasibility->reason);
-    return so ? &plan.infeasibility->reason : nullptr;
-  }
-  /// Of two drives the cheaper one; of two verdicts the one that is later by less, or else the newer one.
+  /// Of two drives the cheaper one; of two verdicts one that is not late, then the one that misses the same
+  /// limit by less, then the first one.
   bool is_better(const Plan& other) const {
     if (is_driven(other)) return !is_driven(*best_) || cost(other) < cost(*best_);
-    if (is_driven(*best_)) return false;
-    const Infeasibility *before = late(*best_), *after = late(other);
-    return !before || !after || after->amount < before->amount;
+    if (is_driven(*best_) || !other.infeasibility) return false;
+    if (!best_->infeasibility) return true;
+    const Infeasibility &before = best_->infeasibility->reason, &after = other.infeasibility->reason;
+    if (is_late(before) != is_late(after)) return is_late(before);
+    return (is_late(after) || after.constraint == before.constraint) && after.amount < before.amount;
   }
   double cost(const Plan& plan) const {
     return std::isinf(floor_W_) ? plan.duration_s : plan.energy.total_J() + floor_W_ * plan.duration_s;
@@ -369,15 +368,19 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
   take(first_W);
   if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches))
     return std::move(trials).plan();
-  const bool binds = !trials.best() || trials.is_late() || !pays(*trials.best(), mission, first_W);
+  const bool binds = !trials.best() || trials.ends_late() || !pays(*trials.best(), mission, first_W);
   if (binds) {
     take({});
     const bool driven = trials.best() && is_driven(*trials.best());
     const double middle_W = driven ? middle_price_W(*trials.best()) : 0;
-    if (driven) take(middle_W);
-    if (!minimizes_time(mission) && (!driven || highest_price_W(*trials.best()) > middle_W)) take(kNoLimit);
+    if (middle_W > 0) take(middle_W);
+    const auto is_high = [&](double price_W) { return price_W > middle_W; };
+    const std::vector<double> price_W =
+        driven ? searched_prices_W(*trials.best(), mission) : std::vector<double>{};
+    const bool hurries = trials.ends_late() || std::any_of(price_W.begin(), price_W.end(), is_high);
+    if (!minimizes_time(mission) && hurries) take(kNoLimit);
   }
-  if (minimizes_time(mission) || trials.is_late()) {
+  if (minimizes_time(mission) || trials.ends_late()) {
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;
     if (const double price_W = first_price_W(cheapest, world, plant); price_W != first_W) take(price_W);
@@ -439,7 +442,7 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     MissionWorld other = world;
     other.robot = robot;
     try {
-      return planned(mission, other, make_plant(robot), options).status <= SolveStatus::feasible;
+      return is_driven(planned(mission, other, make_plant(robot), options));
     } catch (const ConfigError&) {  // of a leg that no plan reached before
       return false;
     }
@@ -477,8 +480,7 @@ Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const Pla
   };
   Plan answer = planned(asked, world, plant, options);
   if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, options, planned);
-  JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
-                   "a mission without a plan has a reason");
+  JOULEPATH_ASSERT(is_driven(answer) || !answer.message.empty(), "a mission without a plan has a reason");
   return answer;
 }
 

@@ -39,13 +39,14 @@ void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, 
                       const RouteSpace* space, std::vector<Plan>& plans) {
   options.baselines = options.path_bound = false;
   for (const double price_W : {kNoLimit, middle_price_W(plans.front())}) {
+    if (price_W <= 0) continue;
     MissionRequest hurried = mission;
     hurried.objective.minimize =
         std::isinf(price_W) ? Objective::Minimize::time : Objective::Minimize::energy_and_time;
     if (std::isfinite(price_W)) hurried.objective.time_value_W = price_W;
     Plan plan = plan_mission(hurried, world, options, space);
     const auto is_known = [&](const Plan& known) { return same_ways(plan, known); };
-    if (plan.status <= SolveStatus::feasible && std::none_of(plans.begin(), plans.end(), is_known))
+    if (is_driven(plan) && std::none_of(plans.begin(), plans.end(), is_known))
       plans.push_back(std::move(plan));
   }
 }
@@ -92,7 +93,7 @@ MissionFront mission_front(const MissionRequest& mission, const MissionWorld& wo
   const std::optional<RouteSpace> space = route_space(mission, world);
   const RouteSpace* floor = space ? &*space : nullptr;
   MissionFront all{.plans = {plan_mission(mission, world, options, floor)}};
-  if (all.plans.front().status > SolveStatus::feasible) return all;
+  if (!is_driven(all.plans.front())) return all;
   if (searched_ways(all.plans.front())) add_faster_plans(mission, world, options, floor, all.plans);
   const Plan& first = all.plans.front();
   const FrontPoint rest = rest_of(first);

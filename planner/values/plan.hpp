@@ -90,10 +90,11 @@ struct LegPlan {
   double dwell_s{};
   double distance_m{};
   double turned_rad{};
-  double price_of_time_W{};
-  EnergyByCause energy{};  ///< driving and dwell
-  double lower_bound_J{};  ///< no profiles of these stretches take less energy from departure to departure
-  double gap_percent{};    ///< relative to its energy; where it is driven in least time, relative to its time
+  double price_of_time_W{};  ///< 0 where it is driven in least time
+  bool in_least_time{};      ///< no price of time is high enough
+  EnergyByCause energy{};    ///< driving and dwell
+  double lower_bound_J{};    ///< no profiles of these stretches take less energy from departure to departure
+  double gap_percent{};  ///< relative to its energy; where it is driven in least time, relative to its time
   std::optional<double> energy_sigma_J{};  ///< 1-sigma, as of the plan
   double charger_W{};                      ///< of the charger at its stop; 0: none
   double charged_J{};                      ///< energy charged there
@@ -120,7 +121,7 @@ struct VisitOrder {
   int planned_orders{};                   ///< in full, this one included
   double energy_J{};                      ///< of the order, from the table of leg energies
   std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
-  double lower_bound_J{};  ///< by the table: the cheapest way into each stop, without payload
+  double lower_bound_J{};                 ///< by the table: the cheapest way into each stop, without payload
   std::optional<Infeasibility> infeasibility{};
 };
 
@@ -205,5 +206,8 @@ struct Plan {
   std::vector<BaselineTotal> baselines{};
   std::optional<PlanInfeasibility> infeasibility{};
 };
+
+/// Whether a plan drives its mission within every limit.
+[[nodiscard]] inline bool is_driven(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
 
 }  // namespace joulepath

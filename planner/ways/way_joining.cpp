@@ -224,7 +224,7 @@ std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
 }
 
 /// Each leg alone, from the arrival of the one before: a start for all of them together. The coarse grid
-/// tells differences of energy well enough, those of time not.
+/// tells differences of energy well enough, those of time not, unless the leg is known.
 RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQuery& query) const {
   std::vector<Sketch> legs;
   Pose from = query.start;
@@ -240,9 +240,8 @@ RefinedRun::Starts RefinedRun::one_by_one(std::size_t first, const joint::JointQ
       return fine.empty() ? std::nullopt : std::optional(std::move(fine.front()));
     };
     std::optional<joint::JointPaths> found;
-    if (const auto& known = parts_[first + i].sketch) {
-      found = joint::best_coarse_paths(leg, {{*known}});
-    } else {
+    if (const auto& known = parts_[first + i].sketch) found = joint::best_coarse_paths(leg, {{*known}});
+    if (!found) {
       auto [forward, backward] = joint_starts(first + i, leg);
       append_all(forward, turning_paths(first + i, leg));
       found = best(forward);

@@ -215,7 +215,7 @@ Json confidence_json(const Plan& plan) {
             {"kept_without_margins", account.kept_without},
             {"energy_without_margins_J", account.energy_without_J},
             {"duration_without_margins_s", account.duration_without_s}};
-  if (plan.status > SolveStatus::feasible) return json;
+  if (!is_driven(plan)) return json;
   json["kept"] = account.kept;
   json["kept_at_least"] = account.kept_at_least;
   json["promises"] = promises;

@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "planner/mission/mission.hpp"
+#include "planner/profile/profile_solver.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -89,26 +92,35 @@ const std::vector<Machine> kMachines{
      "power: {standby_W: 29.72, regeneration_efficiency: 0, sharing: wheel}\n",
      "0.2445", "{x_m: 2.2648, y_m: 1.5647}", "7.873"}};
 
-/// A front is one of ways of several plans: a plan with a point's time as its deadline is no dearer, and the
-/// plan of least time is no later than its first point.
-TEST(Deadline, PlansAreNoDearerThanTheFront) {
-  constexpr double kSame = 1.001, kLater = 1e-4;
-  const ScratchDirectory scratch;
+/// Writes the hall and the robot; the mission's file, with an objective and keys of the robot's battery.
+std::string hall_mission(const ScratchDirectory& scratch, const Machine& machine,
+                         const std::string& objective, const std::string& capacity_Wh = "500") {
   scratch.write("hall.pgm", "P5\n240 240\n255\n" + std::string(240 * 240, '\xff'));
   scratch.write("hall.yaml",
                 "image: hall.pgm\nmode: trinary\nresolution: 0.1\norigin: [-12.0, -12.0, 0]\nnegate: 0\n"
                 "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  scratch.write("robot.yaml", "schema: joulepath/robot/1\nname: r\n" + machine.robot +
+                                  "battery: {capacity_Wh: " + capacity_Wh +
+                                  ", open_circuit_voltage_V: 25, internal_resistance_ohm: 0.02}\n"
+                                  "footprint: {radius_m: 0.32}\n");
+  return scratch.write(
+      "mission.yaml",
+      "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: hall.yaml\nstations:\n  a: {x_m: 0, y_m: 0, "
+      "heading_rad: " +
+          machine.start_heading_rad + "}\n  b: " + machine.goal +
+          "\nstart: {station: a}\nlegs: [{to: b, payload_kg: " + machine.payload_kg + "}]\nobjective: {" +
+          objective + "}\n");
+}
+
+constexpr double kSame = 1.001;  ///< of the same drive, planned twice
+
+/// A front is one of ways of several plans: a plan with a point's time as its deadline is no dearer, and the
+/// plan of least time is no later than its first point.
+TEST(Deadline, PlansAreNoDearerThanTheFront) {
+  constexpr double kLater = 1e-4;
+  const ScratchDirectory scratch;
   const auto answer = [&](const std::string& command, const std::string& objective, const Machine& machine) {
-    scratch.write("robot.yaml", "schema: joulepath/robot/1\nname: r\n" + machine.robot +
-                                    "battery: {capacity_Wh: 500, open_circuit_voltage_V: 25, "
-                                    "internal_resistance_ohm: 0.02}\nfootprint: {radius_m: 0.32}\n");
-    const std::string mission = scratch.write(
-        "mission.yaml",
-        "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: hall.yaml\nstations:\n  a: {x_m: 0, y_m: 0, "
-        "heading_rad: " +
-            machine.start_heading_rad + "}\n  b: " + machine.goal +
-            "\nstart: {station: a}\nlegs: [{to: b, payload_kg: " + machine.payload_kg + "}]\nobjective: {" +
-            objective + "}\n");
+    const std::string mission = hall_mission(scratch, machine, objective);
     const ProgramResult result = run_program(
         scratch, command + " " + mission + " --force --out " + scratch.at("out") + " --json --nodes 100");
     EXPECT_EQ(result.code, 0) << command << " " << objective << result.err << result.out;
@@ -129,6 +141,49 @@ TEST(Deadline, PlansAreNoDearerThanTheFront) {
       EXPECT_LE(plan["energy_J"].get<double>(), kSame * points[k]["energy_J"].get<double>())
           << k << ": " << time_s << " s";
     }
+  }
+}
+
+/// The ways of least energy can just meet such a deadline, at no finite price of time: other ways meet it
+/// with less energy.
+TEST(Deadline, ThatTheCheapestWaysJustMeetIsMetByCheaperOnes) {
+  const ScratchDirectory scratch;
+  const PlanOptions options{
+      .solver = SolverChoice::fast, .nodes = 100, .baselines = false, .path_bound = false};
+  const auto plan = [&](const std::string& objective) {
+    const MissionRequest mission = read_mission(hall_mission(scratch, kMachines[0], objective));
+    return plan_mission(mission, read_world(mission), options);
+  };
+  const Plan free = plan("minimize: energy");
+  ASSERT_EQ(free.legs.front().stretches.size(), 1u);
+  ProfileRequest fastest = free.legs.front().stretches.front().request;
+  fastest.time = {.mode = TimeMode::minimum_time};
+  const double least_s = solve_profile(fastest).profile.value().duration_s();
+  const Plan edge = plan("minimize: energy, deadline_s: " + std::to_string(least_s)),
+             later = plan("minimize: energy, deadline_s: " + std::to_string(least_s * (1 + 1e-4)));
+  ASSERT_TRUE(is_driven(edge) && is_driven(later)) << edge.message << later.message;
+  EXPECT_LE(edge.energy.total_J(), kSame * later.energy.total_J());
+}
+
+/// A battery that is slightly too small for every way: the cheapest ways' need is said, not that of the
+/// fastest ones, and not that they are late.
+TEST(Deadline, AVerdictOnTheBatteryIsThatOfTheCheapestWays) {
+  constexpr std::array<double, 2> kDeadlines_s{9.9, 5.878};
+  const ScratchDirectory scratch;
+  for (std::size_t k = 0; k < kMachines.size(); ++k) {
+    const auto plan = [&](double capacity_Wh) {
+      const std::string objective = "minimize: energy, deadline_s: " + std::to_string(kDeadlines_s[k]);
+      const std::string mission = hall_mission(scratch, kMachines[k], objective, std::to_string(capacity_Wh));
+      const ProgramResult result =
+          run_program(scratch, "plan " + mission + " --force --out " + scratch.at("out") +
+                                   " --json --nodes 100 --solver fast --without baselines,path_bound");
+      return nlohmann::json::parse(result.out);
+    };
+    const double needed_J = plan(500)["energy_J"];
+    const nlohmann::json refused = plan(0.99 * needed_J / 3600);
+    ASSERT_EQ(refused["infeasibility"]["constraint"], "battery_reserve") << refused;
+    const double offered_Wh = refused["infeasibility"]["relaxation"]["capacity_Wh"];
+    EXPECT_LT(offered_Wh * 3600, 1.003 * needed_J) << refused;
   }
 }
 

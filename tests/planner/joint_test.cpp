@@ -136,6 +136,61 @@ TEST(JointGeometry, SecondDerivativesAreThoseOfDifferences) {
   }
 }
 
+// Of the targets and of a place in between, as functions of the parameters.
+TEST(JointGeometry, SumsOfFirstDerivativesAreThoseOfDifferences) {
+  const Program program = bent_program(law_of(even_nomad()));
+  const Eigen::VectorXd p = bent_parameters();
+  const Eigen::VectorXd lambda = (Eigen::VectorXd(5) << 1.3, -0.7, 0.4, 2.0, -1.1).finished();
+  const Eigen::Vector3d inside{0.8, -0.5, 0.9};
+  constexpr std::size_t kPiece = 2;
+  constexpr double kShare = 0.6, h = 1e-6;
+  const auto at_place = [&](const PathGeometry& geometry) {
+    const Pose pose = geometry.pose(kPiece, kShare);
+    return inside.dot(Eigen::Vector3d(pose.x_m, pose.y_m, pose.heading_rad));
+  };
+  PathGeometry geometry(program);
+  geometry.differentiate(p);
+  PieceSums& sums = geometry.sums(kPiece);
+  sums.gradient = geometry.slopes(kPiece, geometry.local(kPiece, kShare)).transpose() * inside;
+  sums.lagrangian = 2 * sums.gradient;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(p.size()), lagrangian = gradient;
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(p.size(), p.size());
+  geometry.add_sums(lambda, gradient, lagrangian, hessian);
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    PathGeometry up(program), down(program);
+    const Eigen::VectorXd above = p + h * Eigen::VectorXd::Unit(p.size(), i), below = 2 * p - above;
+    up.place(above);
+    down.place(below);
+    const double of_place = (at_place(up) - at_place(down)) / (2 * h),
+                 of_targets = lambda.dot(up.errors() - down.errors()) / (2 * h);
+    EXPECT_NEAR(gradient[i], of_place, 1e-7) << i;
+    EXPECT_NEAR(lagrangian[i], 2 * of_place + of_targets, 1e-7) << i;
+  }
+}
+
+// A small change of all parameters moves the starts and ends of the pieces as both say.
+TEST(JointGeometry, ChangesAndDisplacementAreThoseOfDifferences) {
+  const Program program = bent_program(law_of(even_nomad()));
+  const Eigen::VectorXd p = bent_parameters();
+  const Eigen::VectorXd step = (Eigen::VectorXd(8) << 0.3, -0.8, 0.5, 1.0, -0.4, 0.7, -0.6, 0.2).finished();
+  constexpr double h = 1e-6;
+  PathGeometry geometry(program), up(program), down(program);
+  geometry.differentiate(p);
+  const Eigen::VectorXd above = p + h * step, below = p - h * step;
+  up.place(above);
+  down.place(below);
+  const std::vector<PieceGradient> changes = geometry.changes(step);
+  double squares = 0;
+  for (std::size_t j = 0; j < program.pieces.size(); ++j) {
+    const Pose a = up.pose(j, 0), b = down.pose(j, 0), c = up.pose(j, 1), d = down.pose(j, 1);
+    const Eigen::Vector3d moved{a.x_m - b.x_m, a.y_m - b.y_m, a.heading_rad - b.heading_rad};
+    EXPECT_LT((changes[j].head<3>() - moved / (2 * h)).norm(), 1e-7) << j;
+    squares += std::pow(std::hypot(c.x_m - d.x_m, c.y_m - d.y_m) / (2 * h), 2);
+  }
+  const double mean = squares / static_cast<double>(program.pieces.size());
+  EXPECT_NEAR(step.dot(geometry.displacement_metric() * step), mean, 1e-6 * mean);
+}
+
 /// A block of 0.2 x 0.15 m; its upper left corner is at (2.9, 1.65).
 OccupancyGrid block() {
   OccupancyGrid grid = free_grid(120, 80, 0.05);
@@ -200,6 +255,41 @@ TEST(ClearanceRows, SecondDerivativesAreThoseOfDifferences) {
   for (const double first_length_m : {0.95, 1.05})
     expect_derivatives_of_differences(
         (Eigen::VectorXd(5) << 0.01, -0.02, 0.02, first_length_m, 1.1).finished());
+}
+
+/// At rate 1 along a straight piece (phi = 0) or a turn: each limit's row is 0 where the motion is at the
+/// limit.
+TEST(JointSegment, ARowIsZeroAtItsLimitForwardAndInReverse) {
+  const Limits most = limits_for_payload(testing::nomad(), 0);
+  const double unequal = 0.5 * most.deceleration_m_s2;
+  Limits limits = most;
+  limits.deceleration_m_s2 = unequal;
+  const auto least = [&](int sign, std::array<double, kSegmentQuantities> quantities) {
+    double least = kNoLimit;
+    for (const RowLaw& row : row_laws(limits, sign))
+      least = std::min(least, 1 + row.slope * quantities[row.quantity]);
+    return least;
+  };
+  const double v = most.speed_m_s, a = most.acceleration_m_s2, d = unequal,
+               side = most.lateral_acceleration_m_s2, w = most.yaw_rate_rad_s,
+               turn = most.yaw_acceleration_rad_s2;
+  EXPECT_NEAR(least(1, {v * v, 0, 0, 0, 0, 0, 0}), 0, 1e-12);
+  for (const double s : {1.0, -1.0}) {
+    EXPECT_NEAR(least(1, {0, s * side, 0, 0, 0, 0, 0}), 0, 1e-12);
+    EXPECT_NEAR(least(1, {0, 0, 0, 0, s * turn, 0, 0}), 0, 1e-12);
+    EXPECT_NEAR(least(1, {0, 0, 0, 0, 0, 0, s * turn}), 0, 1e-12);
+  }
+  EXPECT_NEAR(least(1, {0, 0, w * w, 0, 0, 0, 0}), 0, 1e-12);
+  for (const std::size_t end : {3u, 5u}) {
+    std::array<double, kSegmentQuantities> gains{}, loses{};
+    gains[end] = a, loses[end] = -d;
+    EXPECT_NEAR(least(1, gains), 0, 1e-12);
+    EXPECT_NEAR(least(1, loses), 0, 1e-12);
+    gains[end] = -a, loses[end] = d;  // in reverse
+    EXPECT_NEAR(least(-1, gains), 0, 1e-12);
+    EXPECT_NEAR(least(-1, loses), 0, 1e-12);
+    EXPECT_LT(least(1, gains), -0.5);
+  }
 }
 
 TEST(JointSegment, DerivativesAreThoseOfDifferences) {
