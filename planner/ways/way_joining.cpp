@@ -291,7 +291,7 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
 }
 
 /// The cheapest of the present paths and those of the joint program that keeps every limit; the present ones
-/// where none does.
+/// where none does. A leg that is joined again is checked then.
 void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
                                const std::array<Starts, 2>& starts, double present_J) {
   struct Candidate {
@@ -312,7 +312,7 @@ void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
                    [](const Candidate& a, const Candidate& b) { return a.cost_J < b.cost_J; });
   for (Candidate& candidate : candidates) {
     parts_ = std::move(candidate.parts);
-    if (!drivable(first, count)) continue;
+    if (!drivable(first, joins_again(first, count) ? count - 1 : count)) continue;
     for (std::size_t k = first; k < first + count; ++k)
       if (parts_[k].refined) parts_[k].driving = driving(k, parts_[k].path);
     return;
@@ -379,14 +379,18 @@ bool RefinedRun::barred() const {
 }
 
 /// Groups of consecutive legs share a leg: its second path knows both neighbors.
+bool RefinedRun::joins_again(std::size_t first, std::size_t count) const {
+  const std::size_t end = first + count;
+  return count == kMostTogether && end < parts_.size() && may_join(end);
+}
+
 void RefinedRun::join() {
   const std::size_t legs = parts_.size();
   for (std::size_t first = 0; first < legs;) {
     std::size_t end = first;
     while (end < legs && end < first + kMostTogether && may_join(end)) ++end;
     if (end > first) join(first, end - first);
-    const bool goes_on = end < legs && end == first + kMostTogether && may_join(end);
-    first = goes_on ? end - 1 : std::max(end, first + 1);
+    first = joins_again(first, end - first) ? end - 1 : std::max(end, first + 1);
   }
 }
 

@@ -69,6 +69,7 @@ class RefinedRun {
                      const std::array<Starts, 2>& starts, double present_J);
   bool may_join(std::size_t k) const;
   void join(std::size_t first, std::size_t count);
+  bool joins_again(std::size_t first, std::size_t count) const;
   PathScore as_driven(std::size_t k) const;
 
   const ChainRequest& request_;
