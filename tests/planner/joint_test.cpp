@@ -265,10 +265,10 @@ TEST(JointSegment, ARowIsZeroAtItsLimitForwardAndInReverse) {
   Limits limits = most;
   limits.deceleration_m_s2 = unequal;
   const auto least = [&](int sign, std::array<double, kSegmentQuantities> quantities) {
-    double least = kNoLimit;
+    double worst = kNoLimit;
     for (const RowLaw& row : row_laws(limits, sign))
-      least = std::min(least, 1 + row.slope * quantities[row.quantity]);
-    return least;
+      worst = std::min(worst, 1 + row.slope * quantities[row.quantity]);
+    return worst;
   };
   const double v = most.speed_m_s, a = most.acceleration_m_s2, d = unequal,
                side = most.lateral_acceleration_m_s2, w = most.yaw_rate_rad_s,
