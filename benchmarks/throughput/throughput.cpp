@@ -184,6 +184,12 @@ Rate rate_of(MissionPlanner& planner, const std::vector<MissionItem>& items, std
   return rate;
 }
 
+/// So few stations that every leg between two of them is driven about 19 times.
+std::size_t stations_for(std::size_t missions) {
+  const double pairs = 3.0 * static_cast<double>(missions) / 19;
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(0.5 + std::sqrt(pairs))), 3, 40);
+}
+
 void batches(std::size_t count) {
   const std::size_t few = std::min<std::size_t>(count, 24);
   for (const bool headings : {true, false}) {
@@ -194,12 +200,13 @@ void batches(std::size_t count) {
                       : "the same, stations without headings",
              "%.0f", rate.per_cpu_minute, 600);
   }
-  const std::vector<MissionItem> items = warehouse_missions(2 * count, 40, true, 3);
+  const std::size_t stations = stations_for(count);
+  const std::vector<MissionItem> items = warehouse_missions(2 * count, stations, true, 3);
   MissionPlanner planner(kFast, {});
   const Rate cold = rate_of(planner, items, 0, count, 1), warm = rate_of(planner, items, count, count, 1);
   char text[160];
-  std::snprintf(text, sizeof text, "%zu missions of 3 legs, 40 stations with headings, per CPU-minute",
-                count);
+  std::snprintf(text, sizeof text, "%zu missions of 3 legs, %zu stations with headings, per CPU-minute",
+                count, stations);
   at_least(text, "%.0f", cold.per_cpu_minute, 600);
   at_least("as many others on the same floor after them", "%.0f", warm.per_cpu_minute, 1200);
   MissionPlanner one(kFast, {}), two(kFast, {});
