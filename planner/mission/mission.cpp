@@ -353,6 +353,12 @@ class BestPlan {
   std::exception_ptr refused_{};
 };
 
+MissionRequest without_deadlines(MissionRequest mission) {
+  mission.objective = {.minimize = Objective::Minimize::energy};
+  for (LegRequest& leg : mission.legs) leg.deadline_s.reset();
+  return mission;
+}
+
 /// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
 /// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
 /// the others of a front: those between least energy and least time and, at prices above, those of least
@@ -384,6 +390,10 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;
     if (const double price_W = first_price_W(cheapest, world, plant); price_W != first_W) take(price_W);
+  }
+  if (trials.ends_late()) {
+    const Plan patient = plan_given_legs(without_deadlines(mission), world, options, space, plant, known);
+    if (is_driven(patient) && middle_price_W(patient) > 0) take(middle_price_W(patient));
   }
   return std::move(trials).plan();
 }
