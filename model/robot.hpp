@@ -34,8 +34,9 @@ struct Inertia {
 struct WindingThermal {
   double resistance_K_W{};
   double capacity_J_K{};
-  double max_winding_C{kNoLimit};
-  double ambient_C{};  ///< also the temperature at which the motor has its `resistance_ohm`
+  double max_winding_C{kNoLimit};  ///< less the margin
+  double margin_K{};               ///< that a plan leaves for a confidence
+  double ambient_C{};              ///< also the temperature at which the motor has its `resistance_ohm`
 
   bool operator==(const WindingThermal&) const = default;
 };
@@ -83,7 +84,8 @@ struct Battery {
   double capacity_Wh{kNoLimit};
   double open_circuit_voltage_V{kNoLimit};  ///< with a curve: at the present charge, at first a full one
   double internal_resistance_ohm{};
-  double reserve_fraction{};
+  double reserve_fraction{};                           ///< with the margin
+  double reserve_margin{};                             ///< of it: what a plan leaves for a confidence
   std::vector<OpenCircuitPoint> open_circuit_curve{};  ///< rising; empty: the voltage is constant
   double max_charge_current_A{kNoLimit};
 };

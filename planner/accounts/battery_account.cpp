@@ -165,6 +165,14 @@ std::map<std::string, double> enough_charge(const BatteryAccount& account, const
       {"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
 }
 
+std::string reserve_margin_text(const Battery& battery) {
+  std::ostringstream text;
+  text.precision(4);
+  if (battery.reserve_margin > 0)
+    text << " and a margin of " << 100 * battery.reserve_margin << " % of the capacity";
+  return text.str();
+}
+
 }  // namespace
 
 std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& pose) {
@@ -224,10 +232,10 @@ std::optional<double> planned_charge_current_A(double power_W, const Robot& robo
 
 }  // namespace
 
-void tell_anew(Plan& plan, const std::string& told) {
-  Infeasibility& verdict = plan.infeasibility->reason;
-  if (verdict.message.rfind(told, 0) != 0) return;
-  plan.message = verdict.message = sentence(verdict) + verdict.message.substr(told.size());
+void tell_anew(Plan& plan, const std::string& told, const std::string& now) {
+  std::string& message = plan.infeasibility->reason.message;
+  if (const auto at = message.find(told); at != std::string::npos) message.replace(at, told.size(), now);
+  plan.message = message;
 }
 
 void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans) {
@@ -244,7 +252,7 @@ void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans) {
   if (verdict.relaxation.erase("battery_voltage_V") > 0 && ohm > 0)
     if (const auto planned = planned_resistance_ohm(0.5 * ohm, robot, plans))
       verdict.relaxation["internal_resistance_ohm"] = *planned;
-  if (sentence(verdict) != told) tell_anew(plan, told);
+  if (const std::string now = sentence(verdict); now != told) tell_anew(plan, told, now);
 }
 
 void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload, const PlansBy& plans) {
@@ -283,7 +291,7 @@ std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& pl
                 battery.capacity_Wh,
       .unit = "Wh",
       .relaxation = enough_charge(account, battery),
-      .message = "the battery falls below its reserve on the way"};
+      .message = "the battery falls below its reserve" + reserve_margin_text(battery) + " on the way"};
 }
 
 }  // namespace joulepath

@@ -45,8 +45,8 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
 /// values: an internal resistance or a greatest charge current with which the mission was planned.
 void name_battery_keys(Plan& plan, const Robot& robot, const PlansBy& plans);
 
-/// Replaces the sentence of a plan's verdict in its message, `told`, by the one of its present relaxations.
-void tell_anew(Plan& plan, const std::string& told);
+/// Replaces what the message of a plan's verdict tells, where it does.
+void tell_anew(Plan& plan, const std::string& told, const std::string& now);
 
 /// 1-sigma of the energy (J) of a plan and of each of its legs, from the entries of `uncertainty:` with their
 /// correlations, each propagated through the power model along the planned motion by central differences, and

@@ -132,6 +132,13 @@ class Heating {
   double time_s_{};
 };
 
+std::string margin_text(const Motor& motor) {
+  std::ostringstream text;
+  text.precision(4);
+  if (motor.thermal->margin_K > 0) text << " less a margin of " << motor.thermal->margin_K << " K";
+  return text.str();
+}
+
 }  // namespace
 
 std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& plant) {
@@ -162,14 +169,15 @@ std::vector<double> winding_temperatures_C(const Plan& plan, const Plant& plant,
   return temperatures_C;
 }
 
-std::optional<Infeasibility> winding_too_hot(const Plan& plan) {
+std::optional<Infeasibility> winding_too_hot(const Plan& plan, const Robot& robot) {
   if (!plan.winding || !plan.winding->fails_on_leg) return std::nullopt;
   const WindingAccount& account = *plan.winding;
   const Pose& pose = plan.legs[*account.fails_on_leg].start_pose;
   std::ostringstream text;
   text.precision(4);
   text << "the " << side_name(account.side) << " motor's winding reaches " << account.highest_C << " C, "
-       << account.above_limit_K << " K above max_winding_C; the limit is passed on leg "
+       << account.above_limit_K << " K above max_winding_C" << margin_text(robot.motor[account.side])
+       << "; the limit is passed on leg "
        << leg_text(*account.fails_on_leg, plan.legs[*account.fails_on_leg].to) << ", " << account.fails_at_s
        << " s after the mission's start";
   return Infeasibility{.constraint = kWindingTemperature,

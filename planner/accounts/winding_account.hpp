@@ -15,8 +15,8 @@ inline constexpr const char* kWindingTemperature = "winding_temperature";  ///< 
 [[nodiscard]] std::vector<double> winding_temperatures_C(const Plan& plan, const Plant& plant, Side side,
                                                          const std::vector<double>& times_s);
 
-/// The verdict where a winding becomes hotter than its `max_winding_C`.
-[[nodiscard]] std::optional<Infeasibility> winding_too_hot(const Plan& plan);
+/// The verdict where a winding becomes hotter than its `max_winding_C`, less its margin.
+[[nodiscard]] std::optional<Infeasibility> winding_too_hot(const Plan& plan, const Robot& robot);
 
 /// Whether this is the verdict on a plan.
 [[nodiscard]] bool is_too_hot(const Plan& plan);

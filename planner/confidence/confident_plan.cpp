@@ -1,14 +1,14 @@
 #include "planner/confidence/confident_plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <sstream>
+#include <map>
 #include <utility>
 
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/battery_account.hpp"
+#include "planner/accounts/state_offers.hpp"
 #include "planner/accounts/winding_account.hpp"
 #include "planner/confidence/promises.hpp"
 #include "planner/legs/on_ways.hpp"
@@ -63,12 +63,6 @@ Plan without_confidence(Plan plain) {
   return plain;
 }
 
-void set_limit(Robot& robot, const Limit& row, double value) {
-  if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
-  for (const Side side : kSides)
-    if (row.field == nullptr) robot.motor[side].*row.rating = value;
-}
-
 Margins between(const Margins& a, const Margins& b) {
   Margins middle;
   for (std::size_t i = 0; i < kUsedLimits; ++i) middle.share[i] = 0.5 * (a.share[i] + b.share[i]);
@@ -88,11 +82,11 @@ bool are_close(const Margins& smaller, const Margins& larger) {
 class ConfidentPlanner {
  public:
   ConfidentPlanner(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
-                   const PlanOnce& plan_once)
+                   const Planning& planning)
       : mission_(mission),
         world_(world),
         options_(options),
-        plan_once_(plan_once),
+        planning_(planning),
         plant_(make_plant(world.robot)),
         confidence_(*mission.objective.confidence),
         draws_(draws_for(confidence_)),
@@ -100,7 +94,8 @@ class ConfidentPlanner {
         judge_(mission, world_.robot, plant_, draws_) {}
 
   Plan plan() {
-    Plan plain = plan_once_(mission_, world_, options_);
+    Plan plain = planning_.plan(mission_, world_, options_);
+    if (!is_driven(plain) && offers_) planning_.offer(plain, mission_, world_, options_);
     if (!is_driven(plain)) return without_confidence(std::move(plain));
     Sample sample = judge_.judged(plain, ++seed_);
     account_ = {.asked = confidence_,
@@ -110,7 +105,7 @@ class ConfidentPlanner {
                 .duration_without_s = plain.duration_s};
     if (is_shown(sample)) return with_account(std::move(plain), sample);
     drive_on_ways_of(std::move(plain));
-    std::optional<Plan> refused = find_margins();
+    std::optional<Refused> refused = find_margins();
     const bool hardly = refused.has_value();
     for (int trial = 0; trial < kTrials; ++trial, aim_ = std::min(aim_ + kClose, 1.0)) {
       const Margins kept_too_little = margins_;
@@ -118,7 +113,7 @@ class ConfidentPlanner {
       Plan plan = plan_with(margins_, options_);
       while (!is_driven(plan) && is_too_late(plan) && take_margins_of_fastest())
         plan = plan_with(margins_, options_);
-      if (!is_driven(plan) && !refused) refused = plan;
+      if (!is_driven(plan) && !refused) refused = {plan, margins_, &given_};
       if (!is_driven(plan) && (trial == 0 || hardly)) break;
       if (!is_driven(plan)) plan = plan_between(kept_too_little);
       if (!is_driven(plan)) break;
@@ -128,10 +123,17 @@ class ConfidentPlanner {
       chosen_.confidence = account_;
       chosen_.confidence->promises = judge_.promises(plan, sample, margins_);
     }
-    return refused ? as_verdict(with_slack(*std::move(refused))) : not_shown();
+    return refused ? as_verdict(*std::move(refused)) : not_shown();
   }
 
  private:
+  /// A verdict, with the margins that a mission was planned with: without what would do instead.
+  struct Refused {
+    Plan plan{};
+    Margins margins{};
+    const MissionRequest* mission{};
+  };
+
   /// The legs follow the ways of a plan from now on, except where stops may be inserted.
   void drive_on_ways_of(Plan plan) {
     given_ = on_ways_of(plan, mission_);
@@ -143,9 +145,15 @@ class ConfidentPlanner {
     return plan_with(margins, options, given_);
   }
   Plan plan_with(const Margins& margins, const PlanOptions& options, const MissionRequest& mission) const {
+    return planning_.plan(mission, with(margins), with(margins, options));
+  }
+  MissionWorld with(const Margins& margins) const {
     MissionWorld world = world_;
     world.robot = with_margins(std::move(world.robot), margins.limit_shares(), margins.reserve);
-    return plan_once_(mission, world, with_limit_shares(options, margins.limit_shares()));
+    return world;
+  }
+  static PlanOptions with(const Margins& margins, const PlanOptions& options) {
+    return with_limit_shares(options, margins.limit_shares());
   }
 
   /// With margins between those that kept too little and the present ones, which no plan leaves.
@@ -167,8 +175,8 @@ class ConfidentPlanner {
   /// Sets margins with which a plan keeps the aimed share; a verdict where no plan was found that leaves
   /// them. Where the ways of the plan without margins do not, others are tried once, then the margins of the
   /// fastest drive.
-  std::optional<Plan> find_margins() {
-    std::optional<Plan> refused = margins_on_ways();
+  std::optional<Refused> find_margins() {
+    std::optional<Refused> refused = margins_on_ways();
     if (refused && has_fixed_ways_ && !tried_others_) {
       tried_others_ = true;
       Plan other = plan_with(margins_, quick(), mission_);
@@ -176,22 +184,22 @@ class ConfidentPlanner {
         drive_on_ways_of(std::move(other));
         refused = margins_on_ways();
       } else if (mission_.legs.empty()) {  // of stops to visit, whose verdict names their keys
-        refused = std::move(other);
+        refused = {std::move(other), margins_, &mission_};
       }
     }
-    if (refused && is_too_late(*refused) && take_margins_of_fastest()) return std::nullopt;
+    if (refused && is_too_late(refused->plan) && take_margins_of_fastest()) return std::nullopt;
     return refused;
   }
 
   /// Margins between those with which a plan keeps too little and those with which it keeps enough, or which
   /// no plan leaves; from the joint quantile where there are none yet.
-  std::optional<Plan> margins_on_ways() {
+  std::optional<Refused> margins_on_ways() {
     Plan plan = chosen_;
     double aim = aim_;
     Sample sample = judge_.estimated(plan);
     Margins too_little;
     std::optional<Margins> enough, too_much;
-    std::optional<Plan> refused;
+    std::optional<Refused> refused;
     for (int round = 0; round < kRounds; ++round) {
       if (enough || too_much)
         margins_ = between(too_little, enough ? *enough : *too_much);
@@ -200,7 +208,7 @@ class ConfidentPlanner {
       plan = plan_with(margins_, quick());
       if (!is_driven(plan)) {
         too_much = margins_;
-        refused = std::move(plan);
+        refused = {std::move(plan), margins_, &given_};
         if (are_close(too_little, *too_much)) break;
         continue;
       }
@@ -225,7 +233,7 @@ class ConfidentPlanner {
     MissionRequest fastest = given_;
     fastest.objective = {.minimize = Objective::Minimize::time, .confidence = confidence_};
     for (LegRequest& leg : fastest.legs) leg.deadline_s.reset(), leg.duration_s.reset();
-    ConfidentPlanner planner(fastest, world_, roughly ? quick() : options_, plan_once_);
+    ConfidentPlanner planner(fastest, world_, roughly ? quick() : options_, planning_);
     if (roughly) planner.aim_ = std::min(aim_ + kClose, 1.0);
     planner.seed_ = seed_;
     planner.offers_ = false;
@@ -262,90 +270,76 @@ class ConfidentPlanner {
     return plan;
   }
 
-  /// Whether another mission or robot is planned with this confidence.
-  bool is_promised(const MissionRequest& mission, const MissionWorld& world) const {
-    ConfidentPlanner planner(mission, world, quick(), plan_once_);
+  /// What keeps a mission from being planned with this confidence, and a little more; empty: nothing.
+  std::string refusal_of(const MissionRequest& mission, const MissionWorld& world) const {
+    ConfidentPlanner planner(mission, world, quick(), planning_);
+    planner.aim_ = std::min(aim_ + kClose, 1.0);
     planner.offers_ = false;
-    return is_driven(planner.plan());
+    const Plan plan = planner.plan();
+    if (is_driven(plan)) return "";
+    return plan.infeasibility ? plan.infeasibility->reason.constraint : plan.message;
   }
 
-  /// The relaxation of a limit that was planned with a share of it is one of the whole limit, with which the
-  /// mission is planned; none where no value near it is enough.
-  void offer_whole_limits(Infeasibility& reason) const {
-    constexpr std::array<double, 6> kMore{1, 1.02, 1.05, 1.1, 1.2, 1.4};
-    for (const auto& [name, share] : margins_.limit_shares()) {
-      if (name == kWindingTemperature) continue;
-      const Limit& row = *limit_named(name);
-      if (reason.constraint == name) reason.amount /= share;
-      const auto relaxed = reason.relaxation.find(std::string(row.key));
-      if (relaxed == reason.relaxation.end()) continue;
-      const double whole = relaxed->second / share;
-      reason.relaxation.erase(relaxed);
-      for (const double more : kMore) {
-        MissionWorld other = world_;
-        set_limit(other.robot, row, more * whole);
-        if (!is_promised(mission_, other)) continue;
-        reason.relaxation[std::string(row.key)] = more * whole;
-        break;
-      }
+  /// A value that a verdict offers, or one near it with which the mission is planned; none where all are in
+  /// vain.
+  std::optional<double> promised_value(const std::string& key, double offered, const Refused& refused) const {
+    const bool less_is_more = key == "payload_kg" || key == "internal_resistance_ohm";
+    const double most = key == "battery_fraction" ? 1.0 : kNoLimit;
+    for (const double more : {1.0, 1.05, 1.1, 1.2, 1.4}) {
+      const double value = less_is_more ? offered / more : std::min(offered * more, most);
+      MissionRequest mission = *refused.mission;
+      MissionWorld world = world_;
+      if (!take_offer(key, value, mission, world.robot)) return value;
+      const std::string refusal = refusal_of(mission, world);
+      if (refusal.empty()) return value;
+      if (value == most || refusal != refused.plan.infeasibility->reason.constraint) break;
     }
+    return std::nullopt;
   }
 
-  /// A charge that is enough for the reserve may leave another promise open: windings that are too hot.
-  void drop_vain_charge(Infeasibility& reason) const {
-    const auto offered = reason.relaxation.find("battery_fraction");
-    const bool heats = world_.robot.motor.left.thermal || world_.robot.motor.right.thermal;
-    if (offered == reason.relaxation.end() || !heats) return;
-    MissionRequest charged = mission_;
-    charged.start.battery_fraction = offered->second;
-    if (!is_promised(charged, world_)) reason.relaxation.erase(offered);
+  /// A limit that a plan used a share of is told in full, and what is offered with the value that is enough
+  /// for the confidence.
+  void keep_what_is_promised(Refused& refused) const {
+    Infeasibility& reason = refused.plan.infeasibility->reason;
+    const std::string told = offers_text(reason, *refused.mission);
+    std::map<std::string, double> offered = std::exchange(reason.relaxation, {});
+    for (const auto& [name, share] : refused.margins.limit_shares()) {
+      if (name == kWindingTemperature) continue;
+      if (reason.constraint == name) reason.amount /= share;
+      if (const auto at = offered.find(std::string(limit_named(name)->key)); at != offered.end())
+        at->second /= share;
+    }
+    for (const auto& [key, value] : offered)
+      if (const auto promised = promised_value(key, value, refused)) reason.relaxation[key] = *promised;
+    tell_anew(refused.plan, told, offers_text(reason, *refused.mission));
   }
 
-  /// What a verdict on the reserve offers is judged again when it is planned with: it has some slack.
-  Plan with_slack(Plan refused) {
-    if (!refused.infeasibility || refused.infeasibility->reason.constraint != "battery_reserve")
-      return refused;
+  /// Judged again, a plan of what is offered for charge or heat has some slack.
+  void give_slack(Refused& refused) const {
+    const std::string& constraint = refused.plan.infeasibility->reason.constraint;
+    if (constraint != "battery_reserve" && constraint != kWindingTemperature) return;
     const Sample sample = judge_.estimated(chosen_);
-    margins_ = margins_for(sample.drawn, sample.nominal, reserve(), std::min(aim_ + 2 * kClose, 1.0));
-    Plan slack = plan_with(margins_, quick());
-    return is_driven(slack) ? refused : slack;
+    const Margins margins =
+        margins_for(sample.drawn, sample.nominal, reserve(), std::min(aim_ + 2 * kClose, 1.0));
+    Plan slack = plan_with(margins, quick(), *refused.mission);
+    if (slack.infeasibility) refused = {std::move(slack), margins, refused.mission};
   }
 
   /// A plan that leaves the margins of its promises is not possible: so says its verdict.
-  Plan as_verdict(Plan refused) const {
-    if (refused.infeasibility) {
-      Infeasibility& reason = refused.infeasibility->reason;
-      if (offers_) {
-        offer_whole_limits(reason);
-        drop_vain_charge(reason);
-      }
-      name_margin(refused.winding, reason);
-      reason.message = "with " + percent(confidence_) + ": " + reason.message +
-                       "; the plan without margins keeps its promises with " +
-                       percent(account_.kept_without) + " of the draws, which shows " +
-                       percent(shown_without());
-      refused.message = reason.message;
+  Plan as_verdict(Refused refused) const {
+    if (refused.plan.infeasibility && offers_) {
+      give_slack(refused);
+      planning_.offer(refused.plan, *refused.mission, with(refused.margins), with(refused.margins, quick()));
+      keep_what_is_promised(refused);
     }
-    refused.confidence = account_;
-    return refused;
-  }
-
-  /// Heat and charge are measured against the robot file's limits less their margins: so says the sentence.
-  void name_margin(const std::optional<WindingAccount>& winding, Infeasibility& reason) const {
-    std::ostringstream margin;
-    margin.precision(3);
-    std::string limit;
-    if (reason.constraint == kWindingTemperature && winding) {
-      limit = "max_winding_C";
-      const WindingThermal& thermal = *world_.robot.motor[winding->side].thermal;
-      margin << " less a margin of "
-             << (1 - margins_.share[kWindingLimit]) * (thermal.max_winding_C - thermal.ambient_C) << " K";
-    } else if (reason.constraint == "battery_reserve" && margins_.reserve > 0) {
-      limit = "its reserve";
-      margin << " and a margin of " << 100 * margins_.reserve << " % of the capacity";
-    }
-    if (const auto at = reason.message.find(limit); !limit.empty() && at != std::string::npos)
-      reason.message.insert(at + limit.size(), margin.str());
+    Plan plan = std::move(refused.plan);
+    if (plan.infeasibility)
+      plan.message = plan.infeasibility->reason.message =
+          "with " + percent(confidence_) + ": " + plan.infeasibility->reason.message +
+          "; the plan without margins keeps its promises with " + percent(account_.kept_without) +
+          " of the draws, which shows " + percent(shown_without());
+    plan.confidence = account_;
+    return plan;
   }
 
   double shown_without() const {
@@ -367,7 +361,7 @@ class ConfidentPlanner {
   const MissionRequest& mission_;
   const MissionWorld& world_;
   PlanOptions options_;
-  const PlanOnce& plan_once_;
+  const Planning& planning_;
   Plant plant_;
   double confidence_;
   std::size_t draws_;
@@ -403,11 +397,12 @@ KeptShare kept_share(const Plan& plan, const MissionRequest& mission, const Robo
 }
 
 Plan confident_plan(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
-                    const PlanOnce& plan_once) {
+                    const Planning& planning) {
   need_uncertainty(mission, world.robot);
   const double unknown = *world.robot.model_energy_sigma();
   if (unknown > kMostUnknown) {
-    Plan plan = plan_once(mission, world, options);
+    Plan plan = planning.plan(mission, world, options);
+    if (!is_driven(plan)) planning.offer(plan, mission, world, options);
     if (!is_driven(plan)) return without_confidence(std::move(plan));
     plan.status = SolveStatus::failed;
     plan.message = "cannot promise " + percent(*mission.objective.confidence) + ": the model misses " +
@@ -416,7 +411,7 @@ Plan confident_plan(const MissionRequest& mission, const MissionWorld& world, co
                    "; `joulepath diagnose` names what it lacks";
     return plan;
   }
-  return ConfidentPlanner(mission, world, options, plan_once).plan();
+  return ConfidentPlanner(mission, world, options, planning).plan();
 }
 
 }  // namespace joulepath

@@ -8,8 +8,14 @@
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 
-/// Plans a mission without regard to its `objective.confidence`, without baselines and bound over all paths.
+/// Plans a mission without regard to its `objective.confidence`, without baselines and bound over all paths;
+/// and adds to such a verdict what would do instead, by plans of its own.
 using PlanOnce = std::function<Plan(const MissionRequest&, const MissionWorld&, const PlanOptions&)>;
+using OfferOnce = std::function<void(Plan&, const MissionRequest&, const MissionWorld&, const PlanOptions&)>;
+struct Planning {
+  PlanOnce plan;
+  OfferOnce offer;
+};
 
 /// Throws ConfigError where a mission asks for a confidence and the robot states no `uncertainty:`, or no
 /// `model_energy` in it.
@@ -30,6 +36,6 @@ struct KeptShare {
 /// draws' demands, found anew for each plan until it stays. Fresh draws then decide. A mission that cannot be
 /// planned with the margins is a verdict. Throws ConfigError as need_uncertainty() does.
 [[nodiscard]] Plan confident_plan(const MissionRequest& mission, const MissionWorld& world,
-                                  const PlanOptions& options, const PlanOnce& plan_once);
+                                  const PlanOptions& options, const Planning& planning);
 
 }  // namespace joulepath

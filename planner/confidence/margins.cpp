@@ -91,11 +91,13 @@ LimitShares Margins::limit_shares() const {
 
 Robot with_margins(Robot robot, const LimitShares& shares, double reserve) {
   robot.battery.reserve_fraction += reserve;
+  robot.battery.reserve_margin = reserve;
   const auto share = shares.find(kWindingTemperature);
   for (const Side side : kSides) {
     std::optional<WindingThermal>& thermal = robot.motor[side].thermal;
-    if (thermal && share != shares.end())
-      thermal->max_winding_C = std::lerp(thermal->ambient_C, thermal->max_winding_C, share->second);
+    if (!thermal || share == shares.end()) continue;
+    thermal->margin_K = (1 - share->second) * (thermal->max_winding_C - thermal->ambient_C);
+    thermal->max_winding_C -= thermal->margin_K;
   }
   return robot;
 }

@@ -11,6 +11,7 @@
 #include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "planner/accounts/state_offers.hpp"
 #include "planner/accounts/winding_account.hpp"
 #include "planner/bound/path_bound.hpp"
 #include "planner/confidence/confident_plan.hpp"
@@ -18,7 +19,6 @@
 #include "planner/mission/charging.hpp"
 #include "planner/mission/drift.hpp"
 #include "planner/mission/mission_time.hpp"
-#include "planner/mission/state_offers.hpp"
 #include "planner/mission/visit_order.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/holding_limit.hpp"
@@ -242,7 +242,7 @@ Plan plan_in_states(const MissionRequest& mission, const MissionWorld& world, co
   if (auto reason = battery_too_small(plan, plant)) {
     const std::size_t leg = *plan.battery->fails_on_leg;
     plan = infeasible(std::move(plan), leg, 0.0, std::move(*reason));
-  } else if (auto heat = winding_too_hot(plan)) {
+  } else if (auto heat = winding_too_hot(plan, plant.robot)) {
     const std::size_t leg = *plan.winding->fails_on_leg;
     plan = infeasible(std::move(plan), leg, 0.0, std::move(*heat));
   }
@@ -436,14 +436,26 @@ Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const 
   return infeasible(std::move(verdict), 0, 0.0, std::move(reason));
 }
 
-using PlansMissionIn =
-    std::function<Plan(const MissionRequest&, const MissionWorld&, const Plant&, const PlanOptions&)>;
+/// Plans a mission, whatever confidence it asks for, without baselines and bound over all paths. A verdict
+/// names no other states of battery and windings that would do.
+Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
+               const RouteSpace* space) {
+  const Plan known{.mission = asked.name, .status = SolveStatus::optimal};
+  const bool visits = !asked.visit.empty() && asked.legs.empty();
+  if (!visits && asked.legs.empty()) refuse_empty(asked);
+  Plan answer =
+      (visits ? plan_stops : plan_with_stops)(asked, world, options, space, make_plant(world.robot), known);
+  JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
+                   "a mission without a plan has a reason");
+  return answer;
+}
 
 constexpr int kMostTrials = 30;  ///< plans of one verdict
 
 /// Adds to a verdict what a battery or windings of other states would do: every offer was planned.
 void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionWorld& world,
-                       PlanOptions options, const PlansMissionIn& planned) {
+                       PlanOptions options, const RouteSpace* space) {
+  if (!answer.infeasibility || options.draft) return;
   options.any_price_of_heat = true;
   const double start_fraction = asked.start.battery_fraction.value_or(1.0);
   int trials = 0;
@@ -452,7 +464,7 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     MissionWorld other = world;
     other.robot = robot;
     try {
-      return is_driven(planned(mission, other, make_plant(robot), options));
+      return is_driven(plan_once(mission, other, options, space));
     } catch (const ConfigError&) {  // of a leg that no plan reached before
       return false;
     }
@@ -477,23 +489,6 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
   blame_battery(answer, world.robot, payload, plans_by);
 }
 
-/// Plans a mission, whatever confidence it asks for, without baselines and bound over all paths.
-Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
-               const RouteSpace* space) {
-  const Plan known{.mission = asked.name, .status = SolveStatus::optimal};
-  const Plant plant = make_plant(world.robot);
-  const bool visits = !asked.visit.empty() && asked.legs.empty();
-  if (!visits && asked.legs.empty()) refuse_empty(asked);
-  const auto planned = [&](const MissionRequest& mission, const MissionWorld& in, const Plant& by,
-                           const PlanOptions& how) {
-    return (visits ? plan_stops : plan_with_stops)(mission, in, how, space, by, known);
-  };
-  Plan answer = planned(asked, world, plant, options);
-  if (answer.infeasibility && !options.draft) offer_what_drifts(answer, asked, world, options, planned);
-  JOULEPATH_ASSERT(is_driven(answer) || !answer.message.empty(), "a mission without a plan has a reason");
-  return answer;
-}
-
 }  // namespace
 
 Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
@@ -503,12 +498,17 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const PlanOnce once = [&](const MissionRequest& mission, const MissionWorld& in, const PlanOptions& how) {
     return plan_once(mission, in, how, space);
   };
+  const OfferOnce offer = [&](Plan& verdict, const MissionRequest& mission, const MissionWorld& in,
+                              const PlanOptions& how) {
+    offer_what_drifts(verdict, mission, in, how, space);
+  };
   PlanOptions alone = options;
   alone.baselines = alone.path_bound = false;
   expect_steps((std::size_t{options.baselines} + std::size_t{options.path_bound}) *
                std::max(asked.legs.size(), asked.visit.size()));
-  Plan answer = asked.objective.confidence && !options.draft ? confident_plan(asked, world, alone, once)
-                                                             : once(asked, world, alone);
+  const bool sure = asked.objective.confidence && !options.draft;
+  Plan answer = sure ? confident_plan(asked, world, alone, {once, offer}) : once(asked, world, alone);
+  if (!sure) offer(answer, asked, world, alone);
   const Plant plant = make_plant(world.robot);
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);

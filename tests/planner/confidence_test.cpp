@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <regex>
 #include <utility>
 
 #include "model/config_error.hpp"
+#include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/cache/answer_cache.hpp"
 #include "planner/confidence/lateness.hpp"
@@ -565,6 +567,92 @@ TEST(Confidence, KeepsTheWindingsOfDrawnRobotsCool) {
   EXPECT_TRUE(heat->binds);
   EXPECT_NEAR(heat->kept, cool, 4 * share_sigma(0.9, kRobots));
   EXPECT_LT(sure.winding->above_limit_K, -1) << "below the motor's own limit, not the margin's";
+}
+
+/// Numbers in a verdict's sentence.
+std::vector<double> numbers_in(const Plan& refused, const std::string& sentence) {
+  std::smatch found;
+  std::vector<double> numbers;
+  if (std::regex_search(refused.message, found, std::regex(sentence)))
+    for (std::size_t k = 1; k < found.size(); ++k) numbers.push_back(std::stod(found[k]));
+  return numbers;
+}
+
+/// The charge below the reserve and the margin that the sentence names is what the verdict says is missing.
+TEST(Confidence, AVerdictOnTheReserveNamesTheMarginItIsMeasuredWith) {
+  Robot robot = testing::nomad();
+  robot.uncertainty = {{"model_energy", 0.04}, {"chassis_mass_kg", 0.1}};
+  for (const double sigmas : {0.3, 1.2}) {
+    for (const double confidence : {0.9, 0.99}) {
+      robot.battery.capacity_Wh = 240;
+      const Plan free = planned_for(straight(6, {}), robot);
+      const double upper_J = free.energy.total_J() + free.battery->loss_J + sigmas * *free.energy_sigma_J;
+      robot.battery.capacity_Wh = upper_J / 3600 / (1 - robot.battery.reserve_fraction);
+      const Plan refused = planned_for(straight(6, {.confidence = confidence}), robot);
+      if (refused.status != SolveStatus::infeasible) continue;
+      const auto numbers =
+          numbers_in(refused, "below its reserve and a margin of ([0-9.e-]+) % of the capacity");
+      ASSERT_EQ(numbers.size(), 1u) << refused.message;
+      const double missing = refused.infeasibility->reason.amount / robot.battery.capacity_Wh;
+      EXPECT_NEAR(robot.battery.reserve_fraction + 0.01 * numbers[0] - least_fraction(*refused.battery),
+                  missing, 2e-4)
+          << sigmas << " " << confidence << refused.message;
+    }
+  }
+}
+
+/// A tug whose windings heat up within seconds.
+Robot hot_tug(double max_winding_C) {
+  Robot robot = uncertain_tug(max_winding_C);
+  for (const Side side : kSides) robot.motor[side].thermal->capacity_J_K = 2;
+  return robot;
+}
+
+/// A start and a stop that the windings of this tug are nearly too hot for, and with margins are.
+MissionRequest hot_start(std::optional<double> confidence, double payload_kg = 400) {
+  MissionRequest mission = testing::starts(1, payload_kg);
+  mission.objective = {.deadline_s = 13.0, .confidence = confidence};
+  return mission;
+}
+
+Plan tow_roughly(const MissionRequest& mission, const Robot& robot) {
+  return plan_mission(mission, {.robot = robot},
+                      {.solver = SolverChoice::fast, .nodes = 12, .accuracy = 1e-2, .baselines = false});
+}
+
+TEST(Confidence, AVerdictOnWindingsNamesTheMarginItIsMeasuredWithAndOffersWhatIsEnough) {
+  const Robot robot = hot_tug(63);
+  const Plan refused = tow_roughly(hot_start(0.95), robot);
+  ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
+  const auto numbers = numbers_in(
+      refused, "reaches ([0-9.]+) C, ([0-9.]+) K above max_winding_C less a margin of ([0-9.]+) K");
+  ASSERT_EQ(numbers.size(), 3u) << refused.message;
+  EXPECT_NEAR(numbers[0] - numbers[1] + numbers[2], 63, 0.02) << refused.message;
+  const double payload_kg = refused.infeasibility->reason.relaxation.at("payload_kg");
+  const auto percent = numbers_in(refused, "([0-9.]+) % less of every payload");
+  ASSERT_EQ(percent.size(), 1u) << refused.message;
+  EXPECT_NEAR(400 * (1 - 0.01 * percent[0]), payload_kg, 0.01);
+  const Plan kept = tow_roughly(hot_start(0.95, payload_kg), robot);
+  EXPECT_LE(kept.status, SolveStatus::feasible) << refused.message << "; " << kept.message;
+}
+
+/// More charge or capacity leaves the windings too hot: neither is offered.
+TEST(Confidence, AVerdictOffersNoChargeThatIsInVain) {
+  Robot robot = hot_tug(63);
+  robot.uncertainty["model_energy"] = 0.15;
+  const Plan plain = tow_roughly(hot_start({}), robot);
+  ASSERT_LE(plain.status, SolveStatus::feasible) << plain.message;
+  const double used_Wh = (plain.energy.total_J() + plain.battery->loss_J) / 3600;
+  for (const double start_fraction : {1.0, 0.7}) {
+    robot.battery.capacity_Wh = 1.02 * used_Wh / (start_fraction - robot.battery.reserve_fraction);
+    MissionRequest mission = hot_start(0.95);
+    mission.start.battery_fraction = start_fraction;
+    const Plan refused = tow_roughly(mission, robot);
+    ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
+    EXPECT_EQ(refused.infeasibility->reason.constraint, "battery_reserve") << refused.message;
+    for (const auto& [key, value] : refused.infeasibility->reason.relaxation)
+      ADD_FAILURE() << key << " = " << value << " is in vain: " << refused.message;
+  }
 }
 
 /// A battery with a steep curve that a mission nearly empties.

@@ -30,4 +30,10 @@ using PlansMission = std::function<bool(const MissionRequest&)>;
 /// with which the mission was planned: to 10 %, and in steps of 5 %. `mission` is the one that was asked for.
 void offer_cooling(Plan& plan, const MissionRequest& mission, const PlansMission& plans);
 
+/// What the message of a verdict tells of its offers.
+[[nodiscard]] std::string offers_text(const Infeasibility& verdict, const MissionRequest& mission);
+
+/// Gives a mission or its robot what a verdict offers under a key; false where it is neither's: a deadline.
+[[nodiscard]] bool take_offer(const std::string& key, double value, MissionRequest& mission, Robot& robot);
+
 }  // namespace joulepath

@@ -1,9 +1,11 @@
-#include "planner/mission/state_offers.hpp"
+#include "planner/accounts/state_offers.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "model/battery_charge.hpp"
+#include "model/limit_table.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/winding_account.hpp"
 #include "planner/values/verdict_text.hpp"
@@ -33,7 +35,7 @@ void offer_charge(Plan& plan, const Robot& robot, double start_fraction, const P
   const std::string told = sentence(verdict);
   if (verdict.constraint.starts_with("battery_")) verdict.relaxation.clear();
   verdict.relaxation["battery_fraction"] = static_cast<double>(good) / kHundred;
-  tell_anew(plan, told);
+  tell_anew(plan, told, sentence(verdict));
 }
 
 void offer_capacity(Plan& plan, const Robot& robot, const PlansWithCapacity& plans) {
@@ -106,25 +108,70 @@ double greatest_payload_kg(const MissionRequest& mission) {
   return most_kg;
 }
 
+std::string cooling_text(const Infeasibility& verdict, double payload_kg) {
+  std::ostringstream text;
+  text.precision(4);
+  const auto dwell = verdict.relaxation.find("dwell_s"), payload = verdict.relaxation.find("payload_kg");
+  if (dwell != verdict.relaxation.end()) text << "a dwell of " << dwell->second << " s at every stop";
+  if (payload != verdict.relaxation.end())
+    text << (text.str().empty() ? "" : ", or ") << kHundred * (1 - payload->second / payload_kg)
+         << " % less of every payload";
+  return text.str().empty() ? "; neither a dwell nor less payload that was tried is enough"
+                            : "; enough: " + text.str();
+}
+
 }  // namespace
 
 void offer_cooling(Plan& plan, const MissionRequest& mission, const PlansMission& plans) {
   if (!is_too_hot(plan)) return;
   Infeasibility& verdict = plan.infeasibility->reason;
-  std::string offers;
-  if (const int dwell_s = enough_dwell_s(mission, plans); dwell_s > 0) {
+  if (const int dwell_s = enough_dwell_s(mission, plans); dwell_s > 0)
     verdict.relaxation["dwell_s"] = dwell_s;
-    offers = "a dwell of " + std::to_string(dwell_s) + " s at every stop";
-  }
   const double payload_kg = greatest_payload_kg(mission);
   if (payload_kg > 0)
-    if (const int percent = enough_unloaded_percent(mission, plans); percent > 0) {
+    if (const int percent = enough_unloaded_percent(mission, plans); percent > 0)
       verdict.relaxation["payload_kg"] = payload_kg * (1 - 0.01 * percent);
-      offers += (offers.empty() ? "" : ", or ") + std::to_string(percent) + " % less of every payload";
-    }
-  verdict.message +=
-      offers.empty() ? "; neither a dwell nor less payload that was tried is enough" : "; enough: " + offers;
-  plan.message = verdict.message;
+  plan.message = verdict.message += cooling_text(verdict, payload_kg);
+}
+
+std::string offers_text(const Infeasibility& verdict, const MissionRequest& mission) {
+  return verdict.constraint == kWindingTemperature ? cooling_text(verdict, greatest_payload_kg(mission))
+                                                   : sentence(verdict);
+}
+
+namespace {
+
+/// The field of a robot's battery that a verdict offers under a key; null: none.
+double Battery::*battery_field(const std::string& key) {
+  if (key == "capacity_Wh") return &Battery::capacity_Wh;
+  if (key == "internal_resistance_ohm") return &Battery::internal_resistance_ohm;
+  return key == "max_charge_current_A" ? &Battery::max_charge_current_A : nullptr;
+}
+
+void set_limit(Robot& robot, const Limit& row, double value) {
+  if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
+  for (const Side side : kSides)
+    if (row.field == nullptr) robot.motor[side].*row.rating = value;
+}
+
+}  // namespace
+
+bool take_offer(const std::string& key, double value, MissionRequest& mission, Robot& robot) {
+  const auto row = std::find_if(std::begin(kLimits), std::end(kLimits),
+                                [&](const Limit& limit) { return limit.key == key; });
+  if (row != std::end(kLimits))
+    set_limit(robot, *row, value);
+  else if (key == "battery_fraction")
+    mission.start.battery_fraction = value;
+  else if (key == "dwell_s")
+    mission = with_dwell(std::move(mission), value);
+  else if (key == "payload_kg")
+    mission = with_payload(std::move(mission), value / greatest_payload_kg(mission));
+  else if (double Battery::*const field = battery_field(key))
+    robot.battery.*field = value;
+  else
+    return false;
+  return true;
 }
 
 }  // namespace joulepath
