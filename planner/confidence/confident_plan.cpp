@@ -285,7 +285,7 @@ class ConfidentPlanner {
   std::optional<double> promised_value(const std::string& key, double offered, const Refused& refused) const {
     const bool less_is_more = key == "payload_kg" || key == "internal_resistance_ohm";
     const double most = key == "battery_fraction" ? 1.0 : kNoLimit;
-    for (const double more : {1.0, 1.05, 1.1, 1.2, 1.4}) {
+    for (const double more : {1.0, 1.05, 1.15, 1.4}) {
       const double value = less_is_more ? offered / more : std::min(offered * more, most);
       MissionRequest mission = *refused.mission;
       MissionWorld world = world_;

@@ -12,6 +12,7 @@
 #include "model/config_error.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
+#include "planner/accounts/state_offers.hpp"
 #include "planner/cache/answer_cache.hpp"
 #include "planner/confidence/lateness.hpp"
 #include "planner/confidence/margins.hpp"
@@ -608,10 +609,10 @@ Robot hot_tug(double max_winding_C) {
   return robot;
 }
 
-/// A start and a stop that the windings of this tug are nearly too hot for, and with margins are.
+/// A start and a stop that the windings of a hot tug are nearly too hot for, and with margins are.
 MissionRequest hot_start(std::optional<double> confidence, double payload_kg = 400) {
   MissionRequest mission = testing::starts(1, payload_kg);
-  mission.objective = {.deadline_s = 13.0, .confidence = confidence};
+  mission.objective.confidence = confidence;
   return mission;
 }
 
@@ -621,38 +622,70 @@ Plan tow_roughly(const MissionRequest& mission, const Robot& robot) {
 }
 
 TEST(Confidence, AVerdictOnWindingsNamesTheMarginItIsMeasuredWithAndOffersWhatIsEnough) {
-  const Robot robot = hot_tug(63);
+  const Robot robot = hot_tug(40);
   const Plan refused = tow_roughly(hot_start(0.95), robot);
   ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
   const auto numbers = numbers_in(
       refused, "reaches ([0-9.]+) C, ([0-9.]+) K above max_winding_C less a margin of ([0-9.]+) K");
   ASSERT_EQ(numbers.size(), 3u) << refused.message;
-  EXPECT_NEAR(numbers[0] - numbers[1] + numbers[2], 63, 0.02) << refused.message;
-  const double payload_kg = refused.infeasibility->reason.relaxation.at("payload_kg");
+  EXPECT_NEAR(numbers[0] - numbers[1] + numbers[2], 40, 0.02) << refused.message;
+  const auto& offered = refused.infeasibility->reason.relaxation;
   const auto percent = numbers_in(refused, "([0-9.]+) % less of every payload");
-  ASSERT_EQ(percent.size(), 1u) << refused.message;
-  EXPECT_NEAR(400 * (1 - 0.01 * percent[0]), payload_kg, 0.01);
-  const Plan kept = tow_roughly(hot_start(0.95, payload_kg), robot);
-  EXPECT_LE(kept.status, SolveStatus::feasible) << refused.message << "; " << kept.message;
+  ASSERT_EQ(percent.size(), offered.count("payload_kg")) << refused.message;
+  for (const auto& [key, value] : offered) {
+    ASSERT_EQ(key, "payload_kg") << refused.message;
+    EXPECT_NEAR(400 * (1 - 0.01 * percent[0]), value, 0.05);
+    const Plan kept = tow_roughly(hot_start(0.95, value), robot);
+    EXPECT_LE(kept.status, SolveStatus::feasible) << refused.message << "; " << kept.message;
+  }
 }
 
 /// More charge or capacity leaves the windings too hot: neither is offered.
 TEST(Confidence, AVerdictOffersNoChargeThatIsInVain) {
   Robot robot = hot_tug(63);
   robot.uncertainty["model_energy"] = 0.15;
-  const Plan plain = tow_roughly(hot_start({}), robot);
+  MissionRequest mission = hot_start({});
+  mission.objective.deadline_s = 13;
+  const Plan plain = tow_roughly(mission, robot);
   ASSERT_LE(plain.status, SolveStatus::feasible) << plain.message;
   const double used_Wh = (plain.energy.total_J() + plain.battery->loss_J) / 3600;
-  for (const double start_fraction : {1.0, 0.7}) {
-    robot.battery.capacity_Wh = 1.02 * used_Wh / (start_fraction - robot.battery.reserve_fraction);
-    MissionRequest mission = hot_start(0.95);
-    mission.start.battery_fraction = start_fraction;
-    const Plan refused = tow_roughly(mission, robot);
-    ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
-    EXPECT_EQ(refused.infeasibility->reason.constraint, "battery_reserve") << refused.message;
-    for (const auto& [key, value] : refused.infeasibility->reason.relaxation)
-      ADD_FAILURE() << key << " = " << value << " is in vain: " << refused.message;
-  }
+  robot.battery.capacity_Wh = 1.02 * used_Wh / (1 - robot.battery.reserve_fraction);
+  mission.objective.confidence = 0.95;
+  const Plan refused = tow_roughly(mission, robot);
+  ASSERT_EQ(refused.status, SolveStatus::infeasible) << refused.message;
+  EXPECT_EQ(refused.infeasibility->reason.constraint, "battery_reserve") << refused.message;
+  for (const auto& [key, value] : refused.infeasibility->reason.relaxation)
+    ADD_FAILURE() << key << " = " << value << " is in vain: " << refused.message;
+}
+
+/// The message of a verdict tells the offers that are left, behind other words too.
+TEST(Offers, AreToldAnewWhereTheyChange) {
+  Plan plan;
+  plan.infeasibility.emplace();
+  Infeasibility& verdict = plan.infeasibility->reason;
+  verdict = {
+      .constraint = "battery_power", .amount = 5, .unit = "W", .relaxation = {{"battery_fraction", 0.43}}};
+  const std::string told = offers_text(verdict, {});
+  verdict.message = "the battery supplies at most 90 W; " + told + "; more";
+  verdict.relaxation.clear();
+  tell_anew(plan, told, offers_text(verdict, {}));
+  EXPECT_EQ(plan.message.find("battery_fraction"), std::string::npos) << plan.message;
+  EXPECT_NE(plan.message.find("is missed by 5 W; more"), std::string::npos) << plan.message;
+  EXPECT_EQ(plan.message, verdict.message);
+}
+
+TEST(Offers, AreGivenToTheMissionOrTheRobot) {
+  MissionRequest mission = testing::starts(1, 400);
+  Robot robot = testing::nomad();
+  EXPECT_TRUE(take_offer("payload_kg", 300, mission, robot));
+  EXPECT_NEAR(mission.legs[0].payload.from_kg, 300, 1e-9);
+  EXPECT_TRUE(take_offer("battery_fraction", 0.5, mission, robot));
+  EXPECT_EQ(mission.start.battery_fraction, 0.5);
+  EXPECT_TRUE(take_offer("max_current_A", 3, mission, robot));
+  EXPECT_EQ(robot.motor.right.max_current_A, 3);
+  EXPECT_TRUE(take_offer("capacity_Wh", 7, mission, robot));
+  EXPECT_EQ(robot.battery.capacity_Wh, 7);
+  EXPECT_FALSE(take_offer("deadline_s", 7, mission, robot));
 }
 
 /// A battery with a steep curve that a mission nearly empties.
