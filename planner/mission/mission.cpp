@@ -445,8 +445,7 @@ Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const Pla
   if (!visits && asked.legs.empty()) refuse_empty(asked);
   Plan answer =
       (visits ? plan_stops : plan_with_stops)(asked, world, options, space, make_plant(world.robot), known);
-  JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
-                   "a mission without a plan has a reason");
+  JOULEPATH_ASSERT(is_driven(answer) || !answer.message.empty(), "a mission without a plan has a reason");
   return answer;
 }
 

@@ -82,7 +82,7 @@ class PlannedOrders {
     tried_.insert(label.order);
     if (is_late(label)) ++late_;
     const double cost_J = plan.energy.total_J() + price_W_ * plan.duration_s;
-    const bool driven = plan.status <= SolveStatus::feasible;
+    const bool driven = is_driven(plan);
     // What empties the battery is too dear, too.
     if (driven || refusal(plan) == "battery_reserve") least_J_ = std::min(least_J_, cost_J);
     std::optional<Plan>& rival = driven ? best_ : refused_;
