@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "diagnosis/checks/data_checks.hpp"
@@ -12,6 +13,7 @@
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
 #include "diagnosis/evidence/another_robot.hpp"
+#include "diagnosis/evidence/delay_search.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/evidence/velocity_filter_search.hpp"
@@ -241,15 +243,18 @@ Diagnosis diagnose_sorted(const Dataset& dataset, RunsByUse runs, std::vector<Da
   return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
 }
 
-/// The wheel speeds are late: whether by a clock or by a filter these runs do not tell.
-std::vector<std::string> note_of_delay(const std::vector<Cause>& causes, const LateSpeeds& late) {
+/// By which a named cause says that the wheel speeds are late; 0 without one.
+double named_delay_s(const std::vector<Cause>& causes) {
   for (const Cause& cause : causes)
-    if (const EffectDescription* effect = find_effect(cause.effect.name);
-        late.filter_fits_too && effect->delays_channels && cause.parameters.front().value < 0)
-      return {"the wheel speeds are late by " +
-              std::to_string(std::lround(-1000 * cause.parameters.front().value)) +
-              " ms: a clock offset and a filter of that time constant fit alike"};
-  return {};
+    if (const EffectDescription* effect = find_effect(cause.effect.name); effect->delays_channels)
+      return std::max(0.0, -cause.parameters.front().value);
+  return 0.0;
+}
+
+/// Time constant of the filter of wheel speeds that are clearly late; 0: none is told.
+double filter_of_late_speeds_s(const LogSet& logs) {
+  const double delay_s = rough_channel_delay_s(logs);
+  return delay_s < 0 ? examine_late_speeds(logs, delay_s).filter_s : 0.0;
 }
 
 Diagnosis diagnose_sound(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& options) {
@@ -261,46 +266,37 @@ Diagnosis diagnose_sound(const Dataset& dataset, RunsByUse runs, const DiagnoseO
   return d;
 }
 
-/// Of the robot against the file's model. Where a filter smoothed the wheel speeds of sound channels, all are
-/// read behind it: swapped currents resemble one.
-Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
-  RunsByUse runs = sort_runs(dataset);
-  const LateSpeeds late = examine_late_speeds(runs.diagnosis);
-  if (late.filter_s == 0 || !check_data(dataset, runs).empty()) {
-    Diagnosis d = diagnose_sound(dataset, std::move(runs), options);
-    d.notes = joined({d.notes, note_of_delay(d.causes, late)});
-    return d;
-  }
-  Dataset filtered = dataset;
-  for (Run& run : filtered.runs) run.velocity_filter_s = late.filter_s;
-  Diagnosis d = diagnose_sound(filtered, sort_runs(filtered), options);
-  d.velocity_filter_s = late.filter_s;
+std::string undecided_note(double delay_s) {
+  return "the wheel speeds are late by " + std::to_string(std::lround(1000 * delay_s)) +
+         " ms: whether by a clock offset or by a filter of that time constant these runs do not tell";
+}
+
+/// With a filter that is told; where wheel speeds are named late, it is sought about the named delay.
+/// `behind` diagnoses what is read behind a filter.
+Diagnosis filter_decided(Diagnosis d, const LogSet& logs, const std::function<Diagnosis(double)>& behind) {
+  const double delay_s = named_delay_s(d.causes);
+  if (delay_s == 0) return d;
+  const LateSpeeds late = examine_late_speeds(logs, -delay_s);
+  if (late.filter_s > 0) return behind(late.filter_s);
+  if (late.undecided) d.notes.push_back(undecided_note(delay_s));
   return d;
 }
 
-/// What a simulator's predictions hold beyond the file's model, and how they stand beside the robot's runs.
-void describe_simulator(const Dataset& dataset, const ComparedRuns& compared, const Diagnosis& contents,
-                        Diagnosis& d) {
-  SimulatorGap& simulator = d.simulator;
-  simulator.runs = compared.dataset.runs.size();
-  simulator.of_runs = static_cast<std::size_t>(std::ranges::count_if(dataset.runs, has_usable_log));
-  simulator.noise_floor_percent = d.gap.energy.noise_floor_percent;
-  simulator.contents = contents.verdict;
-  simulator.contains = contents.causes;
-  simulator.is_another_robots = !contents.foreign_constants.empty();
-  simulator.lacking_channels = compared.lacking;
-  simulator.robot = compared.dataset.robot;
-  for (std::size_t r = 0; r < compared.indices.size(); ++r)
-    simulator.deviations[compared.indices[r]] = *compared.dataset.runs[r].deviation;
-  for (const Alignment& alignment : compared.alignments) {
-    ++(alignment.by == AlignedBy::time      ? simulator.by_time
-       : alignment.by == AlignedBy::command ? simulator.by_command
-                                            : simulator.by_path);
-    simulator.motion_difference_percent =
-        std::max(simulator.motion_difference_percent, 100 * alignment.motion_difference);
-    if (std::abs(alignment.clock_offset_s) > std::abs(simulator.clock_offset_s))
-      simulator.clock_offset_s = alignment.clock_offset_s;
-  }
+/// Of the robot against the file's model. Where a filter smoothed the wheel speeds of sound channels, all are
+/// read behind it: swapped currents resemble one.
+Diagnosis diagnose_robot(const Dataset& dataset, const DiagnoseOptions& options) {
+  const auto behind = [&](double filter_s) {
+    Dataset filtered = dataset;
+    for (Run& run : filtered.runs) run.velocity_filter_s = filter_s;
+    Diagnosis d = diagnose_sound(filtered, sort_runs(filtered), options);
+    d.velocity_filter_s = filter_s;
+    return d;
+  };
+  RunsByUse runs = sort_runs(dataset);
+  const LogSet logs = runs.diagnosis;
+  const double filter_s = filter_of_late_speeds_s(logs);
+  if (filter_s > 0 && check_data(dataset, runs).empty()) return behind(filter_s);
+  return filter_decided(diagnose_sound(dataset, std::move(runs), options), logs, behind);
 }
 
 /// Faults of the robot's log; what the simulator's log shows as well is no fault but another model.
@@ -336,30 +332,77 @@ void renumber(const std::vector<std::size_t>& indices, Diagnosis& d) {
   d.estimated_payload_kg = std::move(payload_kg);
 }
 
-Diagnosis compared_with_simulator(const ComparedRuns& compared, const Diagnosis& contents,
+/// How a simulator's predictions stand beside the robot's runs.
+void describe_simulator(const ComparedRuns& compared, Diagnosis& d) {
+  SimulatorGap& simulator = d.simulator;
+  simulator.runs = compared.dataset.runs.size();
+  simulator.noise_floor_percent = d.gap.energy.noise_floor_percent;
+  simulator.lacking_channels = compared.lacking;
+  simulator.robot = compared.dataset.robot;
+  for (std::size_t r = 0; r < compared.indices.size(); ++r)
+    simulator.deviations[compared.indices[r]] = *compared.dataset.runs[r].deviation;
+  for (const Alignment& alignment : compared.alignments) {
+    ++(alignment.by == AlignedBy::time      ? simulator.by_time
+       : alignment.by == AlignedBy::command ? simulator.by_command
+                                            : simulator.by_path);
+    simulator.motion_difference_percent =
+        std::max(simulator.motion_difference_percent, 100 * alignment.motion_difference);
+    if (std::abs(alignment.clock_offset_s) > std::abs(simulator.clock_offset_s))
+      simulator.clock_offset_s = alignment.clock_offset_s;
+  }
+  renumber(compared.indices, d);
+}
+
+Diagnosis compared_with_simulator(const ComparedRuns& compared, RunsByUse runs,
                                   const DiagnoseOptions& options) {
-  RunsByUse runs = sort_runs(compared.dataset);
-  if (auto checks = faults_of_robot(compared.dataset, runs, contents); !checks.empty())
-    return stopped_by(compared.dataset, runs, std::move(checks));
   const std::vector<RunEnergy> energies =
       run_energies(runs.signals, ModelPoints(runs.signals.size(), {.robot = compared.dataset.robot}));
   Diagnosis d = diagnose_logs(compared.dataset, with_estimated_payloads(std::move(runs)), options);
   d.simulator.gap_percent = energy_gap_percent(energies);
   d.simulator.bias_percent = energy_bias_percent(energies);
   judge_simulator(d);
+  describe_simulator(compared, d);
   return d;
+}
+
+/// Of a robot whose wheel speeds are behind a filter: its channels and the simulator's are read behind it.
+Diagnosis compared_behind(double filter_s, Dataset dataset, const Robot& robot,
+                          const DiagnoseOptions& options) {
+  for (Run& run : dataset.runs) run.velocity_filter_s = filter_s;
+  const ComparedRuns compared = compare_runs(dataset, robot);
+  Diagnosis d = compared_with_simulator(compared, sort_runs(compared.dataset), options);
+  d.velocity_filter_s = filter_s;
+  return d;
+}
+
+Diagnosis diagnose_compared(const Dataset& dataset, const Robot& robot, const Diagnosis& contents,
+                            const DiagnoseOptions& options) {
+  const auto behind = [&](double filter_s) { return compared_behind(filter_s, dataset, robot, options); };
+  const ComparedRuns compared = compare_runs(dataset, robot);
+  RunsByUse runs = sort_runs(compared.dataset);
+  if (auto checks = faults_of_robot(compared.dataset, runs, contents); !checks.empty()) {
+    Diagnosis d = stopped_by(compared.dataset, runs, std::move(checks));
+    describe_simulator(compared, d);
+    return d;
+  }
+  const LogSet logs = runs.diagnosis;
+  if (const double filter_s = filter_of_late_speeds_s(logs); filter_s > 0) return behind(filter_s);
+  return filter_decided(compared_with_simulator(compared, std::move(runs), options), logs, behind);
 }
 
 /// Of the robot against the user's own simulator: the model is that of the robot file with what the
 /// simulator has beyond it, and what the simulator's predictions still have beyond that model is added.
-Diagnosis diagnose_simulator(const Dataset& dataset, const DiagnoseOptions& options) {
+Diagnosis diagnose_simulator(Dataset dataset, const DiagnoseOptions& options) {
   const Diagnosis contents = diagnose_robot(simulator_dataset(dataset), options);
-  const ComparedRuns compared = compare_runs(dataset, contents.corrected_robot.value_or(dataset.robot));
-  Diagnosis d = compared_with_simulator(compared, contents, options);
-  describe_simulator(dataset, compared, contents, d);
+  for (Run& run : dataset.runs) run.predicted_filter_s = contents.velocity_filter_s;
+  Diagnosis d =
+      diagnose_compared(dataset, contents.corrected_robot.value_or(dataset.robot), contents, options);
+  d.simulator.of_runs = static_cast<std::size_t>(std::ranges::count_if(dataset.runs, has_usable_log));
+  d.simulator.contents = contents.verdict;
+  d.simulator.contains = contents.causes;
+  d.simulator.is_another_robots = !contents.foreign_constants.empty();
   for (const DataCheck& check : contents.data_checks)
     d.notes.push_back("the simulator's logs: " + check.channel + " " + check.kind + ", " + check.evidence);
-  renumber(compared.indices, d);
   return d;
 }
 

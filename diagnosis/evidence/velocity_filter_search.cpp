@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/evidence/delay_search.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -17,6 +16,7 @@ struct WindingFit {
   double left_filtered{};  ///< with c T q' added
   double filter_s{};       ///< T, the wheels' mean by their sum of q'^2
   double own_share{};      ///< of the sum of q'^2, beyond what 1, i and q follow
+  bool any{};              ///< whether a wheel has both voltage and current
 };
 
 /// Values of a channel at `count` samples from `begin` on, `shift` samples later.
@@ -51,9 +51,13 @@ WindingFit fit_windings(const std::vector<RunSignals>& signals, double shift_s) 
       const Eigen::Vector3d delayed = gram_of_delay.ldlt().solve(product.head<3>()),
                             slope_followed = gram_of_delay.ldlt().solve(gram.col(3).head<3>());
       const double own_slope = gram(3, 3) - gram.col(3).head<3>().dot(slope_followed);
-      sum.left += (volts - known.leftCols<3>() * delayed).squaredNorm();
+      const double left = (volts - known.leftCols<3>() * delayed).squaredNorm();
+      sum.left += left, sum.any = true;
       slopes += gram(3, 3), own += own_slope;
-      if (own_slope <= 0) continue;  // the wheel never changes its speed
+      if (own_slope <= 0) {  // the wheel never changes its speed
+        sum.left_filtered += left;
+        continue;
+      }
       const Eigen::Vector4d filtered = gram.ldlt().solve(product);
       sum.left_filtered += (volts - known * filtered).squaredNorm();
       gain += gram(3, 3) * filtered[2], gain_of_slope += gram(3, 3) * filtered[3];
@@ -65,27 +69,30 @@ WindingFit fit_windings(const std::vector<RunSignals>& signals, double shift_s) 
 
 }  // namespace
 
-LateSpeeds examine_late_speeds(const LogSet& logs) {
-  const double rough_s = rough_channel_delay_s(logs);
-  if (rough_s >= 0) return {.filter_fits_too = rough_s == 0};
+LateSpeeds examine_late_speeds(const LogSet& logs, double delay_s) {
   LogSet fine = logs;
   fine.options.period_s = 0;  // every sample of the log
   const std::vector<RunSignals> signals = read_signals(fine, 0.0);
   const WindingFit at_once = fit_windings(signals, 0.0);
+  if (!at_once.any) return {.undecided = true};
   WindingFit delay = at_once, apart = at_once;
-  for (double shift_s = std::max(kEarliestReading_s, rough_s - kDelayStep_s);
-       shift_s <= std::min(kLatestReading_s, rough_s + kLongestFilter_s); shift_s += kFineDelayStep_s) {
+  for (double shift_s = std::max(kEarliestReading_s, delay_s - kDelayStep_s);
+       shift_s <= std::min(kLatestReading_s, delay_s + kLongestFilter_s); shift_s += kFineDelayStep_s) {
     const WindingFit fit = fit_windings(signals, shift_s);
     if (fit.left < delay.left) delay = fit;
     if (2 * std::abs(shift_s) > signals.front().log_period_s && fit.left_filtered < apart.left_filtered)
       apart = fit;
   }
   const double notable = 1 - kNotableFilterGain;
+  const auto is_possible = [](const WindingFit& f) {
+    return f.filter_s > 0 && f.filter_s <= kLongestFilter_s;
+  };
   const WindingFit& filter = apart.left_filtered < notable * at_once.left_filtered ? apart : at_once;
   if (filter.left_filtered < notable * delay.left && filter.own_share >= kLeastOwnSlope &&
-      filter.filter_s > 0 && filter.filter_s <= kLongestFilter_s)
+      is_possible(filter))
     return {.filter_s = filter.filter_s};
-  return {.filter_fits_too = at_once.filter_s > 0 && notable * at_once.left_filtered <= delay.left};
+  const bool is_alike = at_once.left_filtered >= notable * delay.left || at_once.own_share < kLeastOwnSlope;
+  return {.undecided = is_possible(at_once) && is_alike && notable * at_once.left_filtered <= delay.left};
 }
 
 }  // namespace joulepath

@@ -77,7 +77,13 @@ class Thinner {
 
   /// The same of another channel than the speeds, or of a product of such: behind the filter of the speeds.
   Samples reading(const Samples& channel, double delay_s = 0) const {
-    return behind_velocity_filter(on_grid(channel, delay_s), grid_.period_s, velocity_filter_s_);
+    return behind_filter(on_grid(channel, delay_s));
+  }
+  Samples behind_filter(Samples on_grid) const {
+    return behind_velocity_filter(std::move(on_grid), grid_.time_s, velocity_filter_s_);
+  }
+  Samples before_filter(const Samples& on_grid) const {
+    return before_velocity_filter(on_grid, grid_.time_s, velocity_filter_s_);
   }
 
   /// The channel with its last stated value: a payload changes in steps and is not interpolated.
@@ -219,14 +225,16 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
 
 /// Mean of the direction of the samples: where a wheel starts, stops or reverses within the kernel, dry
 /// friction acts while it turns, which the mean speed does not tell. Noise of the samples is no direction;
-/// where it exceeds what the mean speed leaves in doubt, the mean speed decides.
-Eigen::VectorXd mean_direction(const Thinner& thinner, const Samples& speed_rad_s) {
+/// where it exceeds what the mean speed leaves in doubt, the mean speed decides. Behind a filter, a wheel's
+/// speed still falls when the wheel is at rest: the direction is that of the speed before it.
+Eigen::VectorXd mean_direction(const Thinner& thinner, const Samples& logged_rad_s) {
+  const Samples speed_rad_s = thinner.before_filter(logged_rad_s);
   const double blurred_rad_s = std::max(kStillWheel_rad_s, kWheelOverNoise * noise_of(speed_rad_s));
   if (blurred_rad_s > kBlurredWheel_rad_s) return {};
   Samples direction(speed_rad_s.size());
   std::ranges::transform(speed_rad_s, direction.begin(),
                          [&](double speed) { return friction_direction(speed, blurred_rad_s); });
-  return thinner.smooth(direction);
+  return thinner.smooth(thinner.behind_filter(std::move(direction)));
 }
 
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,

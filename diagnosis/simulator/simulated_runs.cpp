@@ -5,6 +5,7 @@
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/prediction/prediction.hpp"
+#include "diagnosis/signals/velocity_filter.hpp"
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0514-the-users-simulator.md
 // Method: [Nelson1990]
@@ -25,9 +26,21 @@ Series payload_at(const Run& real, const Series& time_s) {
   return payload_kg;
 }
 
+/// The speeds of a log as a filter of the robot's would show them.
+void smooth_speeds(double time_constant_s, Trajectory& log) {
+  for (Series* speed : {&log.wheel_speed_rad_s.left, &log.wheel_speed_rad_s.right, &log.linear_speed_m_s,
+                        &log.angular_speed_rad_s})
+    *speed = behind_velocity_filter(std::move(*speed), log.time_s, time_constant_s);
+}
+
+/// Sharp speeds of a simulator are put behind the filter of the robot's: both motions are the filtered one.
 Run simulated_run(const Run& real) {
   Run run = real;
   run.log = *real.predicted;
+  if (real.predicted_filter_s > 0)
+    run.velocity_filter_s = real.predicted_filter_s;
+  else
+    smooth_speeds(real.velocity_filter_s, run.log);
   run.log.payload_kg = payload_at(real, run.log.time_s);
   run.predicted.reset();
   run.current_sign_from_motion = false;

@@ -46,6 +46,7 @@ struct Run {
   std::optional<double> start_time_s{};  ///< time of day
   double clock_origin_s{};               ///< what an epoch clock read at time 0 of the log; 0: no such clock
   double velocity_filter_s{};            ///< time constant of a filter behind which the speeds are; 0: none
+  double predicted_filter_s{};           ///< the same of `predicted`
   RunUse use{RunUse::any};
   bool wheels_from_body_speeds{};   ///< the log has only the speeds of the body
   bool current_sign_from_motion{};  ///< the log's currents are unsigned; the sign comes from the wheel's
