@@ -32,7 +32,7 @@ constexpr int kWidened = 5;
 /// Relative: a deadline within this distance of the minimum time determines the profile.
 constexpr double kSameTime = 2e-6;
 constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that is missed slightly
-constexpr double kProven = 0.5;      ///< target of the gap, as a share of the requested accuracy
+constexpr double kProven = 0.25;      ///< target of the gap, as a share of the requested accuracy
 constexpr double kProvenTime = 0.01;  ///< the same for a profile of least time
 /// Share of the previous gap: a finer grid that closes less is the last one.
 constexpr double kWorthAProof = 0.7;
