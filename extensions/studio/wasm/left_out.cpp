@@ -36,7 +36,7 @@ JerkSolution solve_with_ipopt(const JerkProgram&, const IpoptOptions&) {
 
 }  // namespace nlp
 
-Plan confident_plan(const MissionRequest&, const MissionWorld&, const PlanOptions&, const PlanOnce&) {
+Plan confident_plan(const MissionRequest&, const MissionWorld&, const PlanOptions&, const Planning&) {
   refuse("a plan with a stated confidence");
 }
 
