@@ -45,11 +45,21 @@ UniformLog uniform_grid(const Samples& time_s) {
   return grid;
 }
 
+/// As wide as the filter of the speeds, unless the log is short: what remains behind a filter has its memory,
+/// and rows of a narrower kernel repeat each other. A narrower kernel than usual is what was asked for.
+double kernel_sigma_s(const Samples& time_s, const SignalOptions& options, double velocity_filter_s) {
+  constexpr double kKernelsOfLog = 14;  // twice the kernel's length
+  if (options.kernel_sigma_s < kKernelSigma_s) return options.kernel_sigma_s;
+  return std::max(options.kernel_sigma_s,
+                  std::min(velocity_filter_s, (time_s.back() - time_s.front()) / kKernelsOfLog));
+}
+
 class Thinner {
  public:
   Thinner(const Trajectory& log, const SignalOptions& options, double velocity_filter_s)
       : log_(log), velocity_filter_s_(velocity_filter_s), grid_(uniform_grid(log.time_s)) {
-    sigma_s_ = std::max(options.kernel_sigma_s, kLeastKernelPeriods * grid_.period_s);
+    sigma_s_ = std::max(kernel_sigma_s(log.time_s, options, velocity_filter_s),
+                        kLeastKernelPeriods * grid_.period_s);
     kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
     set_strides(options.period_s);
     const std::size_t margin = kernel_.half_width();

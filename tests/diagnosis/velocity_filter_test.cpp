@@ -10,6 +10,7 @@
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
 
 namespace joulepath {
 namespace {
@@ -188,6 +189,25 @@ TEST(VelocityFilter, BringsNoCauseAndHidesNone) {
     EXPECT_EQ(named.causes.front().effect.name, "rolling_resistance");
     EXPECT_NEAR(named.causes.front().parameters.front().value, 0.008, 0.0008);
   }
+}
+
+/// What remains behind a filter has its memory: rows of a narrower kernel repeat each other. A short run
+/// keeps its rows.
+TEST(VelocityFilter, WidensTheKernelToItself) {
+  Dataset day = day_of_ramps(50);
+  joulepath::Run& run = day.runs.front();
+  const double usual_s = make_run_signals(run, 0, day.robot).kernel_sigma_s;
+  run.velocity_filter_s = 0.2;
+  EXPECT_EQ(make_run_signals(run, 0, day.robot).kernel_sigma_s, 0.2);
+  EXPECT_LT(make_run_signals(run, 0, day.robot, {.kernel_sigma_s = 0.02}).kernel_sigma_s, 0.03)
+      << "as little as the log allows";
+  run.velocity_filter_s = 0.02;
+  EXPECT_EQ(make_run_signals(run, 0, day.robot).kernel_sigma_s, usual_s);
+  Dataset brief = day;
+  brief.runs.front().log =
+      testing::synthetic_run(day.robot, "brief", 0.9, 0, testing::swinging(0.5, 0.1, 2)).log;
+  brief.runs.front().velocity_filter_s = 0.25;
+  EXPECT_GT(make_run_signals(brief.runs.front(), 0, day.robot).size(), 2);
 }
 
 bool doubts_the_delay(const Diagnosis& d) {
