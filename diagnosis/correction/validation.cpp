@@ -228,21 +228,6 @@ double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
 }
 
-std::string what_is_left(double after, double before) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%.3g %% of a held-out energy gap of %.3g %%", after, before);
-  return text;
-}
-
-/// Candidates of which none is sure, and which leave the greater part of the gap, are no answer.
-void withdraw_group(const std::string& left, Validation& v, const Examination& x) {
-  v.judgment.verdict = Verdict::unexplained;
-  v.judgment.depends_on = "goes in part with " + in_words(v.judgment.named) + ", which leaves " + left;
-  v.judgment.named.clear();
-  v.fitted = fit_names(x, {}, {});
-  v.model = judged_model(x, v.fitted);
-}
-
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
 void judge_what_is_left(const Examination& x, double before, Validation& v) {
   const bool named = !v.judgment.named.empty();
@@ -254,11 +239,12 @@ void judge_what_is_left(const Examination& x, double before, Validation& v) {
     v.judgment.notes.push_back(
         "calibration errors do not explain the gap, and no effect of the catalog holds");
   }
-  if (named && v.judgment.verdict == Verdict::ambiguous && 2 * after > before)
-    withdraw_group(what_is_left(after, before), v, x);
   if (!named || v.judgment.verdict != Verdict::explained) return;
   v.judgment.verdict = Verdict::partly_explained;
-  v.judgment.notes.push_back("the names leave " + what_is_left(after, before));
+  char text[160];
+  std::snprintf(text, sizeof text, "the names leave %.3g %% of a held-out energy gap of %.3g %%", after,
+                before);
+  v.judgment.notes.push_back(text);
 }
 
 void fill_floors(const NoiseModel& noise, GapReport& gap) {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/correction/validation.hpp"
-#include "diagnosis/evidence/identify.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/result_files/write_diagnosis.hpp"
@@ -82,23 +80,6 @@ TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
   EXPECT_FALSE(d.corrected_robot.has_value());
   EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(),
                           [](const std::string& n) { return n.find("one payload") != std::string::npos; }));
-}
-
-/// Candidates that are not sure and leave most of the gap name nothing.
-TEST(Group, ThatLeavesTheGreaterPartOfTheGapIsNoAnswer) {
-  const Dataset day = rolling_day({0, 8, 0, 8, 0, 8, 0, 8, 0, 8}, {0.002, 0.005, 0.01});
-  const RunsByUse runs = sort_runs(day);
-  const Identification id = identify(runs.diagnosis, {});
-  const Examination x{.dataset = day, .runs = runs, .id = id};
-  for (const auto& [name, verdict] : {std::pair{"quadratic_drag", Verdict::unexplained},
-                                      std::pair{"coulomb_friction", Verdict::ambiguous}}) {
-    const auto candidate = std::ranges::find(id.equations.candidates, name, &Candidate::label);
-    ASSERT_NE(candidate, id.equations.candidates.end());
-    const Validation v = validate(
-        x, {.verdict = Verdict::ambiguous, .named = {{*candidate, {0.05}}}, .sizes = {.greatest = 10}});
-    EXPECT_EQ(v.judgment.verdict, verdict) << name << ": " << verdict_name(v.judgment.verdict);
-    EXPECT_EQ(v.judgment.named.empty(), verdict == Verdict::unexplained);
-  }
 }
 
 TEST(Group, TwoPayloadsSeparateThemAlsoWithoutNoise) {
