@@ -166,7 +166,7 @@ bool take_offer(const std::string& key, double value, MissionRequest& mission, R
   else if (key == "dwell_s")
     mission = with_dwell(std::move(mission), value);
   else if (key == "payload_kg")
-    mission = with_payload(std::move(mission), value / greatest_payload_kg(mission));
+    mission = with_payload(mission, value / greatest_payload_kg(mission));
   else if (double Battery::*const field = battery_field(key))
     robot.battery.*field = value;
   else
