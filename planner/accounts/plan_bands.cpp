@@ -29,20 +29,23 @@ DriveShifts drive_shifts(const Plan& plan, const Plant& plant) {
   const std::size_t constants = nuisances_of(plant.robot).size();
   DriveShifts shifts{.power_W = Shifts(constants, {0.0}), .energy_J = Shifts(constants, {0.0})};
   std::vector<double> sum_J(constants);
-  const auto add = [&](double time_s, std::size_t i, double shift_W, double weight_s) {
-    if (i == 0) shifts.time_s.push_back(time_s);
-    shifts.power_W[i].push_back(shift_W);
-    shifts.energy_J[i].push_back(sum_J[i] + 0.5 * weight_s * shift_W);
-    sum_J[i] += weight_s * shift_W;
+  const auto add = [&](double time_s, double weight_s, const auto& shift_W) {
+    shifts.time_s.push_back(time_s);
+    for (std::size_t i = 0; i < constants; ++i) {
+      const double watts = shift_W(i), joules = weight_s * watts;
+      shifts.power_W[i].push_back(watts);
+      shifts.energy_J[i].push_back(sum_J[i] + 0.5 * joules);
+      sum_J[i] += joules;
+    }
   };
   for (const LegPlan& leg : plan.legs) {
     const UncertainPlant here = uncertain(plant_in(plant, leg.state));
     LegMotion(leg, here.plant).integrate([&](const EnergyNode& node, double elapsed_s) {
-      for (std::size_t i = 0; i < constants; ++i)
-        add(leg.start_s + elapsed_s, i, power_shift_W(here.shifted[i], node), node.weight_s);
+      add(leg.start_s + elapsed_s, node.weight_s,
+          [&](std::size_t i) { return power_shift_W(here.shifted[i], node); });
     });
   }
-  for (std::size_t i = 0; i < constants; ++i) add(plan.duration_s, i, 0.0, 0.0);
+  add(plan.duration_s, 0.0, [](std::size_t) { return 0.0; });
   return shifts;
 }
 
@@ -84,7 +87,7 @@ std::optional<PlanBand> band(std::vector<double> time_s, std::vector<double> val
   return most > 0 ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// The same motion of a robot with another constant.
+/// Temperatures along the same motion of a robot with another constant.
 std::vector<double> other_windings_C(Plan plan, const Plant& plant, const Nuisance& nuisance, double fraction,
                                      const std::vector<double>& times_s) {
   for (LegPlan& leg : plan.legs)

@@ -378,7 +378,7 @@ bool RefinedRun::barred() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.barred; });
 }
 
-/// Groups of consecutive legs share a leg: its second path knows both neighbors.
+/// Whether the last of these legs is the first of the next ones, too: its second path knows both neighbors.
 bool RefinedRun::joins_again(std::size_t first, std::size_t count) const {
   const std::size_t end = first + count;
   return count == kMostTogether && end < parts_.size() && may_join(end);

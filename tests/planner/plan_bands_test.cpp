@@ -85,6 +85,15 @@ TEST(PlanBands, AWindingsRiseIsAsSureAsItsResistance) {
               plan.winding->highest_C, 0.02 * rise_K);
 }
 
+/// No constant is uncertain, only the model.
+TEST(PlanBands, OfTheModelAloneAreInProportionToTheMotion) {
+  const Robot robot = doubtful({{"model_energy", 0.06}});
+  const Plan plan = two_legs(robot);
+  const PlanBands bands = bands_of(plan, robot);
+  ASSERT_TRUE(bands.energy_J);
+  EXPECT_NEAR(bands.energy_J->sigma.back(), 0.06 * plan.energy.motion_J(), 1e-4 * plan.energy.motion_J());
+}
+
 TEST(PlanBands, NoneWhereNothingIsUncertain) {
   for (const auto& stated :
        {std::map<std::string, double>{}, {{"standby_W", 0.0}, {"resistance_ohm", 0.0}}}) {
