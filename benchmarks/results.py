@@ -44,11 +44,11 @@ def read_index():
 
 @functools.cache
 def commits_of(file):
-    """Commits that a result file names, for the whole of it or for a section."""
+    """Commits of this branch that a result file names, for the whole of it or for a section."""
     words = {word for line in (RESULTS / file).read_text().splitlines()
              if any(mark in line for mark in ("ommand", "./dev ", "ommits"))
              for word in COMMIT.findall(line)}
-    return sorted(word for word in words if git("rev-parse", "--verify", "--quiet", word + "^{commit}"))
+    return sorted(word for word in words if git("merge-base", "--is-ancestor", word, "HEAD") is not None)
 
 
 def has_history(index):
@@ -135,7 +135,9 @@ def old_results(index, figures, most_changes):
         if result.get("campaign"):
             if f"results/{result['file']}" in readme and not any(commit[:7] in readme for commit in commits_of(result["file"])):
                 yield f"README.md quotes the campaign results/{result['file']} without its commit"
-        elif changes is None or changes > most_changes:
+        elif changes is None:
+            yield f"results/{result['file']} names no commit of this branch: {result['run']}"
+        elif changes > most_changes:
             yield f"results/{result['file']} is {changes} commits behind its inputs (at most {most_changes}): {result['run']}"
 
 

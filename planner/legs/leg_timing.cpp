@@ -9,6 +9,10 @@
 namespace joulepath {
 namespace {
 
+/// ProfileRequest::proven of a leg whose time is free. Where it is priced, ways are chosen by the energy at
+/// that price, which stays proven more closely.
+constexpr double kProvenFree = 0.25;
+
 TimeGoal goal_for(double price_W, double given_s) {
   if (std::isinf(price_W)) return {.mode = TimeMode::minimum_time};
   if (price_W == 0.0 && std::isinf(given_s)) return {.mode = TimeMode::free_time};
@@ -21,6 +25,7 @@ TimeGoal goal_for(double price_W, double given_s) {
 
 ProfileRequest LegTiming::question(ProfileRequest stretch, double price_W, SolverChoice solver) const {
   stretch.time = goal_for(price_W, given_s_);
+  if (stretch.time.mode == TimeMode::free_time) stretch.proven = kProvenFree;
   stretch.solver = solver;
   return stretch;
 }

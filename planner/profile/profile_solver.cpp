@@ -31,10 +31,8 @@ constexpr int kRounds = 12;  ///< of tightening and refinement
 constexpr int kWidened = 5;
 /// Relative: a deadline within this distance of the minimum time determines the profile.
 constexpr double kSameTime = 2e-6;
-constexpr int kSharpenings = 16;        ///< cuts of the grid for a deadline that is missed slightly
-constexpr double kProven = 0.25;        ///< target of the gap, as a share of the requested accuracy
-constexpr double kProvenPriced = 0.04;  ///< the same where time has a price: ways are chosen by it
-constexpr double kProvenTime = 0.01;    ///< the same for a profile of least time
+constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that is missed slightly
+constexpr double kProvenTime = 0.01;  ///< target of the gap of least time, as a share of `accuracy`
 /// Share of the previous gap: a finer grid that closes less is the last one.
 constexpr double kWorthAProof = 0.7;
 /// A grid with more than this multiple of the requested nodes is not refined for its bound.
@@ -296,8 +294,7 @@ class ProfileSolver {
     else
       gap = certify_energy(problem, motion_, solution_, profile, driving_J, summary);
     const double share = 0.01 * summary.gap_percent;
-    const bool is_free = request_.time.mode == TimeMode::free_time;
-    const double aim = (fastest ? kProvenTime : is_free ? kProven : kProvenPriced) * request_.accuracy;
+    const double aim = (fastest ? kProvenTime : request_.proven) * request_.accuracy;
     const bool better = share < kWorthAProof * least_gap_;
     least_gap_ = std::min(least_gap_, share);
     if (share <= aim || !better || stage_ == Stage::polish || summary.local ||

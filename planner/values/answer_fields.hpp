@@ -79,10 +79,10 @@ void each_field(Archive& archive, TimeGoal& value) {
 /// Used for questions only. Of the plant only what drifts over a mission is in it (LegState): SharedAnswers::
 /// world identifies its robot.
 inline void each_field(ByteWriter& archive, ProfileRequest& value) {
-  auto& [piece, plant, limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
-         draft, time_of_day_s, memory] = value;
-  archive(record_of(piece), limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
-          draft, time_of_day_s, memory, drifting_constants(plant));
+  auto& [piece, plant, limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, proven,
+         solver, draft, time_of_day_s, memory] = value;
+  archive(record_of(piece), limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, proven,
+          solver, draft, time_of_day_s, memory, drifting_constants(plant));
 }
 
 }  // namespace joulepath

@@ -50,6 +50,7 @@ struct ProfileRequest {
   TimeGoal time{};
   std::size_t nodes{200};
   double accuracy{1e-4};  ///< relative: NLP energy against replay, and the gap that counts as optimal
+  double proven{0.04};    ///< ends grid refinement: a gap of this share of `accuracy`; least time has its own
   SolverChoice solver{SolverChoice::ipopt};
   /// For comparisons of paths: one grid, limits at its nodes only, no jerk limit, no bound.
   bool draft{};
