@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "planner/joint/bordered_system.hpp"
 #include "planner/joint/clearance_rows.hpp"
 #include "planner/joint/interior_rows.hpp"
 #include "planner/joint/joint_segment.hpp"
@@ -12,8 +13,7 @@
 namespace joulepath::joint {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Eigen::Index, Eigen::VectorXd;
 using Jet = nlp::JetOf<kSegmentVariables>;
 
 constexpr double kCostScale = 100;         ///< the cost of a start in the program's unit
@@ -99,15 +99,8 @@ class JointNewton::Steps {
   Sums assemble();
   void look_at(const NewtonOptions& options);
   void add_part(std::size_t k, Sums& sums);
-  void add_to_blocks(std::size_t k, const std::array<double, kSegmentVariables>& gradient,
-                     const std::array<double, kSegmentVariables>& lagrangian,
-                     const std::array<double, Jet::kTriangle>& hessian);
   void add_rows_of_bounds(Sums& sums);
-  void hold_knots();
   void direction();
-  template <class Each>
-  void for_border(const Each& each) const;
-  RowMajor eliminated() const;
   StepLengths step_rows();
   double merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step);
   void search(const StepLengths& lengths);
@@ -130,16 +123,11 @@ class JointNewton::Steps {
   std::vector<Index> held_;  ///< knots that do not move
   ClearanceRows clearance_;
   PathGeometry geometry_;
-  VectorXd lambda_{}, lambda_new_{};
+  BorderedSystem system_{};
+  VectorXd lambda_{};  ///< multipliers of the targets
 
   double mu_{};
   std::size_t pairs_{};
-  VectorXd gb_{}, gp_{}, lb_{}, lp_{}, diagonal_{}, beside_{}, pivot_{}, lower_{};
-  std::vector<Eigen::Matrix<double, 2, 3>> border_{};  ///< per part: its squares by its path's parameters
-  MatrixXd hpp_{}, metric_{}, range_{};                ///< range_: of the targets' gradient
-  Eigen::PartialPivLU<MatrixXd> on_range_{};
-  VectorXd errors_{}, db_{}, dp_{};
-  MatrixXd targets_{};
   Regularization regularization_{};
   double penalty_{0}, step_{1};
 
@@ -185,6 +173,9 @@ void JointNewton::Steps::lay_out() {
       parts_.push_back(part);
     }
   }
+  std::vector<BorderedSystem::Part> unknowns;
+  for (const Part& part : parts_) unknowns.push_back({{part.b0, part.b1}, columns(part)});
+  system_ = BorderedSystem(std::move(unknowns), free_, program_.parameters());
   const Limits& most = program_.laws.front().limits;
   const double fastest = std::isfinite(most.speed_m_s) ? most.speed_m_s : 1.0;
   most_square_ = fastest * fastest;
@@ -316,32 +307,6 @@ void JointNewton::Steps::begin_rows() {
   lambda_.setZero(v.errors.size());
 }
 
-void JointNewton::Steps::add_to_blocks(std::size_t k, const std::array<double, kSegmentVariables>& gradient,
-                                       const std::array<double, kSegmentVariables>& lagrangian,
-                                       const std::array<double, Jet::kTriangle>& hessian) {
-  const Part& part = parts_[k];
-  const std::array<Index, 2> unknown{part.b0, part.b1};
-  const std::array<Index, 3> column = columns(part);
-  for (std::size_t i = 0, at = 0; i < kSegmentVariables; ++i)
-    for (std::size_t n = 0; n <= i; ++n, ++at) {
-      const double h = hessian[at];
-      if (i < 2) {
-        if (unknown[i] < 0 || unknown[n] < 0) continue;
-        (i == n ? diagonal_[unknown[i]] : beside_[unknown[n]]) += h;
-      } else if (n < 2) {
-        border_[k](static_cast<Index>(n), static_cast<Index>(i) - 2) = h;
-      } else {
-        hpp_(column[i - 2], column[n - 2]) += h;
-        if (n < i) hpp_(column[n - 2], column[i - 2]) += h;
-      }
-    }
-  for (std::size_t i = 0; i < kSegmentVariables; ++i) {
-    if (i < 2 && unknown[i] < 0) continue;
-    (i < 2 ? gb_[unknown[i]] : gp_[column[i - 2]]) += gradient[i];
-    (i < 2 ? lb_[unknown[i]] : lp_[column[i - 2]]) += lagrangian[i];
-  }
-}
-
 void JointNewton::Steps::add_part(std::size_t k, Sums& sums) {
   const SegmentValues<Jet>& x = jets_[k];
   const double price = law(parts_[k]).price_W * scale_, lost = loss(parts_[k]);
@@ -383,15 +348,13 @@ void JointNewton::Steps::add_part(std::size_t k, Sums& sums) {
   for (std::size_t q = parts_[k].b1 < 0 ? kCapQuantities : 0; q < kSegmentQuantities; ++q)
     add(x.bounded[q], weights[q].gradient, weights[q].multiplier, weights[q].multiplier,
         weights[q].stiffness);
-  add_to_blocks(k, gradient, lagrangian, hessian);
+  system_.add(k, gradient, lagrangian, hessian);
 }
 
 void JointNewton::Steps::add_rows_of_bounds(Sums& sums) {
   for_bounds(b_, p_, [&](Row& row, double value, Index at, bool square, double slope) {
     row.value = value;
-    (square ? gb_ : gp_)[at] -= slope * row.push(mu_);
-    (square ? lb_ : lp_)[at] -= slope * row.z;
-    (square ? diagonal_[at] : hpp_(at, at)) += slope * slope * row.stiffness();
+    system_.add_bound(square, at, -slope * row.push(mu_), -slope * row.z, slope * slope * row.stiffness());
     sums.complementarity += row.s * row.z;
     sums.primal += std::abs(row.residual()) * row.z;
   });
@@ -399,18 +362,11 @@ void JointNewton::Steps::add_rows_of_bounds(Sums& sums) {
 
 JointNewton::Steps::Sums JointNewton::Steps::assemble() {
   const Index n = program_.parameters();
-  gb_.setZero(free_);
-  lb_.setZero(free_);
-  gp_.setZero(n);
-  diagonal_.setZero(free_);
-  beside_.setZero(free_);
-  lp_.setZero(n);
-  border_.resize(parts_.size());
-  hpp_.setZero(n, n);
+  system_.clear();
   Sums sums;
   geometry_.differentiate(p_);
-  errors_ = geometry_.errors();
-  targets_ = geometry_.error_gradient();
+  system_.errors = geometry_.errors();
+  system_.targets = geometry_.error_gradient();
   jets_.resize(parts_.size());
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     jets_[k] = values_of<Jet>(k, b_, p_);
@@ -423,109 +379,37 @@ JointNewton::Steps::Sums JointNewton::Steps::assemble() {
   sums.complementarity += clear.complementarity;
   sums.primal += clear.primal;
   sums.lost = clear.lost || (solution_.steps >= kWayOut && clear.least_m < -kDeep_m);
-  geometry_.add_sums(lambda_, gp_, lp_, hpp_);
-  metric_ = kDisplacementWeight * geometry_.displacement_metric();
+  geometry_.add_sums(lambda_, system_.g.parameters, system_.lagrangian.parameters, system_.hessian);
+  system_.metric = kDisplacementWeight * geometry_.displacement_metric();
   for (Index i = 0; i < n; ++i)
-    metric_(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
-  hold_knots();
+    system_.metric(i, i) += i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
+  system_.hold(held_);
+  const auto& [of_squares, of_parameters] = system_.lagrangian;
   for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (parts_[k].b1 >= 0) sums.dual += std::abs(lb_[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
-  for (Index i = 0; i < n; ++i) sums.dual += std::abs(lp_[i]) * std::max(std::abs(p_[i]), 0.3);
-  for (Index i = 0; i < errors_.size(); ++i)
-    sums.primal += std::abs(errors_[i]) * std::max(std::abs(lambda_[i]), 20.0);
+    if (parts_[k].b1 >= 0) sums.dual += std::abs(of_squares[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
+  for (Index i = 0; i < n; ++i) sums.dual += std::abs(of_parameters[i]) * std::max(std::abs(p_[i]), 0.3);
+  for (Index i = 0; i < lambda_.size(); ++i)
+    sums.primal += std::abs(system_.errors[i]) * std::max(std::abs(lambda_[i]), 20.0);
   return sums;
 }
 
-/// Takes the knots that do not move out of the system.
-void JointNewton::Steps::hold_knots() {
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (program_.pieces[parts_[k].piece].turns) border_[k].leftCols<2>().setZero();
-  for (const Index knot : held_) {
-    gp_[knot] = lp_[knot] = 0;
-    targets_.col(knot).setZero();
-    for (MatrixXd* square : {&hpp_, &metric_}) {
-      square->row(knot).setZero();
-      square->col(knot).setZero();
-      (*square)(knot, knot) = 1;
-    }
-  }
-}
-
-/// Calls each(square, parameter, value) for the entries of B.
-template <class Each>
-void JointNewton::Steps::for_border(const Each& each) const {
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const std::array<Index, 2> unknown{parts_[k].b0, parts_[k].b1};
-    const std::array<Index, 3> column = columns(parts_[k]);
-    for (std::size_t i = 0; i < unknown.size(); ++i)
-      for (std::size_t c = 0; c < column.size(); ++c)
-        if (unknown[i] >= 0)
-          each(unknown[i], column[c], border_[k](static_cast<Index>(i), static_cast<Index>(c)));
-  }
-}
-
-/// T^-1 [B g]: the squares' part of the system, solved for each parameter and for the gradient.
-RowMajor JointNewton::Steps::eliminated() const {
-  const Index n = program_.parameters();
-  RowMajor x = RowMajor::Zero(free_, n + 1);
-  for_border([&](Index row, Index column, double value) { x(row, column) += value; });
-  x.col(n) = gb_;
-  for (Index k = 1; k < free_; ++k) x.row(k) -= lower_[k] * x.row(k - 1);
-  for (Index k = 0; k < free_; ++k) x.row(k) /= pivot_[k];
-  for (Index k = free_ - 1; k-- > 0;) x.row(k) -= lower_[k + 1] * x.row(k + 1);
-  return x;
-}
-
-/// The step from [T B 0; B' H A'; 0 A 0]: the squares' tridiagonal block is eliminated, the rest is solved in
-/// the null space of the targets' gradient A.
 void JointNewton::Steps::direction() {
-  const Index n = program_.parameters(), rows = errors_.size();
-  pivot_ = diagonal_;
-  lower_.setZero(free_);
-  for (Index k = 0; k < free_; ++k) {
-    if (k > 0) {
-      lower_[k] = beside_[k - 1] / pivot_[k - 1];
-      pivot_[k] -= lower_[k] * beside_[k - 1];
-    }
-    if (!(pivot_[k] > 1e-9 * std::abs(diagonal_[k]))) pivot_[k] = 1e-2 * std::abs(diagonal_[k]) + 1e-6;
-  }
-  const RowMajor x = eliminated();
-  RowMajor schur(n, n + 1);  // and the gradient
-  schur << hpp_, gp_;
-  for_border([&](Index row, Index column, double value) { schur.row(column) -= value * x.row(row); });
-
-  const Eigen::HouseholderQR<MatrixXd> qr(targets_.transpose());
-  const auto q = qr.householderQ();
-  const auto in_null = [&](MatrixXd square) {
-    square.applyOnTheLeft(q.adjoint());
-    square.applyOnTheRight(q);
-    return MatrixXd(square.bottomRightCorner(n - rows, n - rows));
-  };
-  range_ = q * MatrixXd::Identity(n, rows);
-  on_range_.compute(targets_ * range_);
-  const VectorXd to_targets = range_ * on_range_.solve(-errors_);
-  const double damping = regularization_.value();
-  const VectorXd right = -(q.adjoint() * (schur.col(n) + schur.leftCols(n) * to_targets));
-  VectorXd across(n);
-  across << VectorXd::Zero(rows), descent(
-                                      in_null(schur.leftCols(n) + damping * metric_),
-                                      [&] { return in_null(metric_); }, damping, right.tail(n - rows));
-  dp_ = to_targets + q * across;
-  const VectorXd rest = -(schur.col(n) + schur.leftCols(n) * dp_ + damping * metric_ * (dp_ - to_targets));
-  lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
-  for (const Index knot : held_) dp_[knot] = 0;
-  for (Index i = program_.knots; i < n; ++i)
-    if (p_[i] < 1.01 * program_.least_length_m(i)) dp_[i] = std::max(dp_[i], 0.0);
-  db_ = -x.col(n) - x.leftCols(n) * dp_;
+  system_.solve(regularization_.value());
+  VectorXd& dp = system_.step.parameters;
+  for (const Index knot : held_) dp[knot] = 0;
+  for (Index i = program_.knots; i < dp.size(); ++i)
+    if (p_[i] < 1.01 * program_.least_length_m(i)) dp[i] = std::max(dp[i], 0.0);
+  system_.follow();
 }
 
 StepLengths JointNewton::Steps::step_rows() {
+  const auto& [db, dp] = system_.step;
   StepLengths lengths;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
     const auto [a, b, l] = columns(part);
-    const std::array<double, kSegmentVariables> d{part.b0 < 0 ? 0 : db_[part.b0],
-                                                  part.b1 < 0 ? 0 : db_[part.b1], dp_[a], dp_[b], dp_[l]};
+    const std::array<double, kSegmentVariables> d{part.b0 < 0 ? 0 : db[part.b0],
+                                                  part.b1 < 0 ? 0 : db[part.b1], dp[a], dp[b], dp[l]};
     const auto change = [&](const Jet& f) {
       double sum = 0;
       for (std::size_t i = 0; i < d.size(); ++i) sum += f.d[i] * d[i];
@@ -539,17 +423,17 @@ StepLengths JointNewton::Steps::step_rows() {
     }
     for (std::size_t c = 0; c < 2; ++c)
       channels_[k][c].step(change(jets_[k].energy_J[c]), loss(part), mu_, lengths);
-    if (part.b1 >= 0) StepLengths::shorten(lengths.primal, b_[static_cast<Index>(k) + 1], db_[part.b1]);
+    if (part.b1 >= 0) StepLengths::shorten(lengths.primal, b_[static_cast<Index>(k) + 1], db[part.b1]);
   }
   for_bounds(b_, p_, [&](Row& row, double, Index at, bool square, double slope) {
-    row.step(slope * (square ? db_ : dp_)[at], mu_, lengths);
+    row.step(slope * (square ? db : dp)[at], mu_, lengths);
   });
-  clearance_.step(geometry_.changes(dp_), mu_, lengths);
-  for (Index i = 0; i < dp_.size(); ++i) {
+  clearance_.step(geometry_.changes(dp), mu_, lengths);
+  for (Index i = 0; i < dp.size(); ++i) {
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
-    if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
-    if (i >= program_.knots && dp_[i] < 0)
-      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - program_.least_length_m(i)) / -dp_[i]);
+    if (std::abs(dp[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp[i]));
+    if (i >= program_.knots && dp[i] < 0)
+      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - program_.least_length_m(i)) / -dp[i]);
   }
   return lengths;
 }
@@ -576,17 +460,17 @@ void JointNewton::Steps::correct(VectorXd& parameters, double step, const Vector
     geometry.place(parameters);
     const VectorXd excess = geometry.errors() - (1 - step) * errors;
     if (excess.norm() < 1e-7) return;
-    const VectorXd back = range_ * on_range_.solve(excess);
-    if (back.norm() > 0.5 * step * dp_.norm() + 1e-12) return;
+    const VectorXd back = system_.to_targets(excess);
+    if (back.norm() > 0.5 * step * system_.step.parameters.norm() + 1e-12) return;
     parameters -= back;
   }
 }
 
 void JointNewton::Steps::search(const StepLengths& lengths) {
   constexpr int kHalvings = 7;
-  penalty_ = std::max(0.5 * penalty_, 1.2 * std::max(1.0, lambda_new_.lpNorm<Eigen::Infinity>()));
+  penalty_ = std::max(0.5 * penalty_, 1.2 * std::max(1.0, system_.multipliers.lpNorm<Eigen::Infinity>()));
   Values now;
-  now.errors = errors_;
+  now.errors = system_.errors;
   now.clearance = clearance_.present();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     SegmentValues<double>& part = now.parts.emplace_back();
@@ -602,9 +486,9 @@ void JointNewton::Steps::search(const StepLengths& lengths) {
   for (;; ++halvings) {
     b = b_;
     for (std::size_t k = 0; k < parts_.size(); ++k)
-      if (parts_[k].b1 >= 0) b[static_cast<Index>(k) + 1] += step_ * db_[parts_[k].b1];
-    p = p_ + step_ * dp_;
-    correct(p, step_, errors_);
+      if (parts_[k].b1 >= 0) b[static_cast<Index>(k) + 1] += step_ * system_.step.squares[parts_[k].b1];
+    p = p_ + step_ * system_.step.parameters;
+    correct(p, step_, system_.errors);
     for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], program_.least_length_m(i));
     next = values(b, p);
     const double after = merit(next, b, p, step_);
@@ -622,7 +506,7 @@ void JointNewton::Steps::search(const StepLengths& lengths) {
   for_bounds(b, p,
              [&](Row& row, double value, Index, bool, double) { row.take(step_, lengths.dual, value, mu_); });
   clearance_.take(next.clearance, step_, lengths.dual, mu_);
-  lambda_ += step_ * (lambda_new_ - lambda_);
+  lambda_ += step_ * (system_.multipliers - lambda_);
   b_ = std::move(b);
   p_ = std::move(p);
 }
@@ -646,7 +530,8 @@ void JointNewton::Steps::look_at(const NewtonOptions& options) {
   before_J = sums_.cost;
   solution_.converged =
       sums_.error() < options.tolerance || (!gains && !sums_.lost && sums_.is_near(options.tolerance));
-  solution_.feasible = !sums_.lost && sums_.primal < kFeasible * sums_.cost && errors_.norm() < kFeasible;
+  solution_.feasible =
+      !sums_.lost && sums_.primal < kFeasible * sums_.cost && system_.errors.norm() < kFeasible;
 }
 
 JointSolution JointNewton::Steps::run(const NewtonOptions& options) {
@@ -663,7 +548,7 @@ JointSolution JointNewton::Steps::run(const NewtonOptions& options) {
       break;
     }
     direction();
-    stalled_ = !dp_.allFinite() || !db_.allFinite();
+    stalled_ = !system_.step.parameters.allFinite() || !system_.step.squares.allFinite();
     if (stalled_) break;
     search(step_rows());
     stalled_ = step_ < kStalled;
