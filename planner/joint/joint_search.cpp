@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/joint/finer_pieces.hpp"
 #include "planner/joint/joint_newton.hpp"
 #include "planner/joint/path_geometry.hpp"
 #include "planner/joint/start_fit.hpp"
@@ -12,6 +13,8 @@ namespace joulepath::joint {
 namespace {
 
 constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments per piece
+constexpr std::size_t kFewest = 2;                              ///< of a part of a piece
+constexpr std::size_t kMostPieces = 80;                         ///< for which pieces that bend are cut
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
 constexpr double kGiveUp = 1.02, kHopeless = 1.025, kNearBest = 1.005, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
@@ -27,23 +30,6 @@ struct Candidate {
   JointSolution solution{};
 };
 
-/// Squares of the rate on another grid of the same pieces, linear in between.
-Eigen::VectorXd on_grid(const Program& before, const Eigen::VectorXd& squares, const Program& after) {
-  std::vector<double> values{squares[0]};
-  Eigen::Index first = 0;
-  for (std::size_t j = 0; j < before.pieces.size(); ++j) {
-    const auto old_count = static_cast<double>(before.pieces[j].segments);
-    for (std::size_t i = 1; i <= after.pieces[j].segments; ++i) {
-      const double at = static_cast<double>(i) / static_cast<double>(after.pieces[j].segments) * old_count;
-      const double cell = std::min(old_count - 1, std::floor(at));
-      const auto k = first + static_cast<Eigen::Index>(cell);
-      values.push_back(squares[k] + (at - cell) * (squares[k + 1] - squares[k]));
-    }
-    first += static_cast<Eigen::Index>(before.pieces[j].segments);
-  }
-  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
 bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
   if (!program.checker) return false;
   const std::vector<Path> paths = paths_of(program, parameters);
@@ -54,23 +40,35 @@ bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
   });
 }
 
-/// The solution on a finer grid from a coarse one; the coarse one where the method fails without a gain.
+/// The grid of the finer pieces.
+void lay_grid(FinerPieces& finer, bool dense) {
+  Program& program = finer.start.program;
+  std::size_t next = 0;
+  for (const std::size_t parts : finer.parts)
+    for (std::size_t part = 0; part < parts; ++part, ++next) {
+      const double length_m = finer.start.parameters[program.length_of(next)];
+      program.pieces[next].segments =
+          dense ? std::clamp(static_cast<std::size_t>(std::ceil(length_m / kNode_m)),
+                             parts > 1 ? kFewest : kCoarse, kMostFine)
+                : std::max(kFewest, (kFine + parts - 1) / parts);
+    }
+  if (dense) program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
+}
+
+/// The solution on a finer grid from a coarse one, with finer pieces where the method finds it; the coarse
+/// one where it fails without a gain.
 Candidate refined(const Candidate& coarse) {
-  Candidate fine = coarse;
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
-  for (std::size_t j = 0; j < fine.start.program.pieces.size(); ++j) {
-    const double length_m = coarse.solution.parameters[coarse.start.program.length_of(j)];
-    fine.start.program.pieces[j].segments =
-        dense ? std::clamp(static_cast<std::size_t>(std::ceil(length_m / kNode_m)), kCoarse, kMostFine)
-              : kFine;
+  for (const std::size_t most_pieces : {kMostPieces, std::size_t{}}) {
+    FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
+    lay_grid(finer, dense);
+    const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
+    Candidate fine{.start = std::move(finer.start)};
+    fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
+    if (fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J))
+      return fine;
   }
-  if (dense) fine.start.program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
-  fine.start.parameters = coarse.solution.parameters;
-  const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
-  fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
-  const bool better =
-      fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J);
-  return better ? fine : coarse;
+  return coarse;
 }
 
 /// Largest missing clearance along paths; negative: a path cannot be driven as it is.

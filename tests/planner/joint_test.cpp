@@ -3,7 +3,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <utility>
 
 #include "model/limit_table.hpp"
 #include "planner/joint/clearance_rows.hpp"
@@ -411,6 +413,36 @@ TEST(Joint, ReachesTheEndPoseToRounding) {
       EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad - *goal.heading_rad), 0, 1e-9) << trial;
     }
   }
+}
+
+/// An answer fed back with each of its pieces in two: more freedom hardly saves energy.
+TEST(Joint, AnAnswerInFinerPiecesIsHardlyCheaper) {
+  const Robot robot = testing::nomad();
+  const DriveLaw law = law_of(robot);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> angle(-kPi, kPi), reach(1, 6);
+  std::vector<double> saved;
+  for (int trial = 0; trial < 12; ++trial) {
+    const double bearing = angle(random), reach_m = reach(random);
+    const LegGoal goal{{reach_m * std::cos(bearing), reach_m * std::sin(bearing)}, angle(random)};
+    const auto found = paths_between(robot, {}, goal);
+    ASSERT_FALSE(found.empty()) << trial;
+    Sketch finer;
+    for (Sketch::Part part : found.front().sketches.front().parts) {
+      part.length_m /= 2;
+      const double to_rad = part.to_rad;
+      part.to_rad = 0.5 * (part.from_rad + to_rad);
+      finer.parts.push_back(part);
+      part.from_rad = std::exchange(part.to_rad, to_rad);
+      finer.parts.push_back(part);
+    }
+    const auto again = best_joint_paths({{}, {goal}, {law}, {}, nullptr}, {{finer}});
+    ASSERT_FALSE(again.empty()) << trial;
+    const double before_J = driven_J(robot, found.front().legs.front());
+    saved.push_back(1 - driven_J(robot, again.front().legs.front()) / before_J);
+    EXPECT_LT(saved.back(), 0.003) << trial;
+  }
+  EXPECT_LT(std::accumulate(saved.begin(), saved.end(), 0.0) / static_cast<double>(saved.size()), 0.0015);
 }
 
 // A leg straight ahead: the path is the line, the energy that of the profile solver on it.
