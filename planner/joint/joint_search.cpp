@@ -59,16 +59,17 @@ void lay_grid(FinerPieces& finer, bool dense) {
 /// one where it fails without a gain.
 Candidate refined(const Candidate& coarse) {
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
+  Candidate best = coarse;
   for (const std::size_t most_pieces : {kMostPieces, std::size_t{}}) {
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
     lay_grid(finer, dense);
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
     Candidate fine{.start = std::move(finer.start)};
     fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
-    if (fine.solution.converged || (fine.solution.feasible && fine.solution.cost_J < coarse.solution.cost_J))
-      return fine;
+    if (fine.solution.converged) return fine;
+    if (fine.solution.feasible && fine.solution.cost_J < best.solution.cost_J) best = std::move(fine);
   }
-  return coarse;
+  return best;
 }
 
 /// Largest missing clearance along paths; negative: a path cannot be driven as it is.
