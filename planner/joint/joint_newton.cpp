@@ -403,7 +403,7 @@ void JointNewton::Steps::direction() {
 }
 
 StepLengths JointNewton::Steps::step_rows() {
-  const auto& [db, dp] = system_.step;
+  const VectorXd &db = system_.step.squares, &dp = system_.step.parameters;
   StepLengths lengths;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
