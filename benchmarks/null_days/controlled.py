@@ -9,7 +9,7 @@ import math
 import random
 
 STEP_S = 0.002
-CONTROL, LOG, SLOW = 5, 10, 50  # steps between calls of the controller, rows of the drive's log, rows of battery and pose
+CONTROL, LOG, SLOW = 5, 10, 50  # steps between calls of the controller, usual rows of the drive's log, rows of battery and pose
 CALL_S = STEP_S * CONTROL
 UNCERTAIN = {"friction_torque_Nm": 0.03, "viscous_friction_Nm_s_rad": 0.1, "resistance_ohm": 0.02, "torque_constant_Nm_A": 0.01,
              "chassis_mass_kg": 0.01, "chassis_yaw_inertia_kg_m2": 0.05, "wheel_radius_m": 0.004, "half_track_m": 0.01, "payload_kg": 0.02}
@@ -30,6 +30,8 @@ KINDS = {
     "60 runs": dict(runs=60, pause_s=60, charge=0.7),
     "wheel speeds behind a filter of 80 ms": dict(filter_s=0.08),
     "coarse encoders behind a filter of 50 ms": dict(ticks=1024, filter_s=0.05),
+    **{f"encoders of 512 ticks{behind} at {rate} Hz": dict(ticks=512, log=round(1 / STEP_S / rate), filter_s=filter_s)
+       for behind, filter_s in (("", 0.0), (" behind a filter of 60 ms", 0.06)) for rate in (20, 50, 100)},
     "gyro and wheel speeds half a sample apart": dict(gyro_at_end=True),
     "electrical logger 60 ms late": dict(clock_s=0.06),
     "dead band and stiction": dict(dead_band=0.02, stiction=1.5),
@@ -40,7 +42,7 @@ KINDS = {
     "most of these together": dict(runs=20, filter_s=0.06, ticks=4000, dead_band=0.01, stiction=1.3, clock_s=0.04, **EMPTYING)}
 SHORT = ("discharging battery, 20 runs", "gyro and wheel speeds half a sample apart")
 # A late electrical logger is a delay, and a filter makes the wheel speeds late: this name is no false alarm there.
-ALLOWED = {kind: {"time_misalignment"} for kind, day in KINDS.items() if "clock_s" in day or "filter_s" in day}
+ALLOWED = {kind: {"time_misalignment"} for kind, day in KINDS.items() if day.get("clock_s") or day.get("filter_s")}
 
 
 def sizes(robot):
@@ -134,7 +136,7 @@ def drive(b, x, effect, day, load, number, start_s, charge, rng):
     standby, Ri = b["standby"] + e("standby_power_error"), effect.get("supply_sag", b["Ri"])
     loss, scrub, slope, drop = e("gear_efficiency"), STEP_S * e("turning_scrub"), e("floor_slope"), e("driver_voltage_drop")
     dead, stiction = day.get("dead_band", 0) * b["U_max"], day.get("stiction", 1)
-    count, filter_s = day.get("ticks", 40000) / (2 * math.pi), day.get("filter_s", 0)
+    count, filter_s, log = day.get("ticks", 40000) / (2 * math.pi), day.get("filter_s", 0), day.get("log", LOG)
     quick, slow_by = math.exp(-CALL_S / 0.03), math.exp(-CALL_S / filter_s) if filter_s else 0.0
     # Inverse of the mass matrix of both wheel speeds; a moment of the floor acts with the share `lever`.
     a, c = m * r * r / 4 + J * r * r / (4 * l * l) + b["Iw"] + STEP_S * nu, m * r * r / 4 - J * r * r / (4 * l * l)
@@ -182,10 +184,10 @@ def drive(b, x, effect, day, load, number, start_s, charge, rng):
         charge -= amperes * rest_V * STEP_S / 3600 / b["Wh"]
         sums = [s + value for s, value in zip(sums, (*V, *i, w))]
         time_s = (step + 1) * STEP_S
-        if (step + 1) % LOG == 0:
+        if (step + 1) % log == 0:
             ticks = [math.floor(angle[k] * count) for k in range(2)]
-            speeds = filtered if filter_s else [(ticks[k] - logged[k]) / count / (LOG * STEP_S) for k in range(2)]
-            mean, logged = [s / LOG for s in sums], ticks
+            speeds = filtered if filter_s else [(ticks[k] - logged[k]) / count / (log * STEP_S) for k in range(2)]
+            mean, logged = [s / log for s in sums], ticks
             fast.append([time_s, *speeds, *mean[:4], w if day.get("gyro_at_end") or filter_s else mean[4]])
             sums = [0.0] * 5
         if (step + 1) % SLOW == 0:
