@@ -23,9 +23,9 @@ double noise_variance(const Eigen::VectorXd& mode, double third_difference_gain)
   return *middle / (kMedianOfChiSquare * third_difference_gain);
 }
 
-Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double third_difference_gain,
-                            Eigen::Index half_width, double over_noise) {
-  const double least = over_noise * noise_variance(mode, third_difference_gain);
+Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double variance, Eigen::Index half_width,
+                            double over_noise) {
+  const double least = over_noise * variance;
   Eigen::VectorXd kept = mode;
   for (Eigen::Index j = 0; j < mode.size(); ++j) {
     const Eigen::Index first = std::max<Eigen::Index>(0, j - half_width),
@@ -37,34 +37,41 @@ Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double third_difference
 
 Eigen::Index half_window(double period_s) { return std::lround(kAccelerationWindow_s / period_s); }
 
-Sided<Eigen::VectorXd> modes_above_noise(const Sided<Eigen::VectorXd>& wheels, double third_difference_gain,
-                                         Eigen::Index half_width, double over_noise) {
-  const auto kept = [&](const Eigen::VectorXd& mode) {
-    return above_noise(mode, third_difference_gain, half_width, over_noise);
+/// Keeps what stands out of its noise in both modes.
+NoisyModes keep_above_noise(Sided<Eigen::VectorXd>& wheels, double third_difference_gain,
+                            Eigen::Index half_width, double over_noise) {
+  NoisyModes squares;
+  const auto kept = [&](const Eigen::VectorXd& mode, NoisySquares& of_mode) {
+    const double variance = noise_variance(mode, third_difference_gain);
+    Eigen::VectorXd result = above_noise(mode, variance, half_width, over_noise);
+    of_mode = {.all = result.squaredNorm(),
+               .noise = variance * static_cast<double>((result.array() != 0).count())};
+    return result;
   };
-  const Eigen::VectorXd driving = kept(0.5 * (wheels.left + wheels.right)),
-                        turning = kept(0.5 * (wheels.right - wheels.left));
-  return {driving - turning, driving + turning};
+  const Eigen::VectorXd driving = kept(0.5 * (wheels.left + wheels.right), squares.driving),
+                        turning = kept(0.5 * (wheels.right - wheels.left), squares.turning);
+  wheels = {driving - turning, driving + turning};
+  return squares;
 }
 
 }  // namespace
 
-void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, double third_difference_gain,
-                               double period_s) {
-  if (period_s > kLongestNoisePeriod_s) return;
-  acceleration_rad_s2 = modes_above_noise(acceleration_rad_s2, third_difference_gain,
-                                          half_window(period_s), kAccelerationOverNoise);
+NoisyModes remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2,
+                                     double third_difference_gain, double period_s) {
+  if (period_s > kLongestNoisePeriod_s) return {};
+  return keep_above_noise(acceleration_rad_s2, third_difference_gain, half_window(period_s),
+                          kAccelerationOverNoise);
 }
 
 void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain) {
-  jerk_rad_s3 = modes_above_noise(jerk_rad_s3, third_difference_gain, 1, kJerkOverNoise);
+  keep_above_noise(jerk_rad_s3, third_difference_gain, 1, kJerkOverNoise);
 }
 
 std::vector<bool> beyond_noise(const Eigen::VectorXd& signal, double third_difference_gain, double period_s) {
   std::vector<bool> beyond(static_cast<std::size_t>(signal.size()), true);
   if (period_s > kLongestNoisePeriod_s) return beyond;
-  const Eigen::VectorXd kept =
-      above_noise(signal, third_difference_gain, half_window(period_s), kAccelerationOverNoise);
+  const Eigen::VectorXd kept = above_noise(signal, noise_variance(signal, third_difference_gain),
+                                           half_window(period_s), kAccelerationOverNoise);
   for (std::size_t j = 0; j < beyond.size(); ++j) beyond[j] = kept[static_cast<Eigen::Index>(j)] != 0;
   return beyond;
 }

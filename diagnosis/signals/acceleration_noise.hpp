@@ -7,14 +7,28 @@
 
 namespace joulepath {
 
+/// Sums of squares of an acceleration where it stands out of its noise, and of the noise there.
+struct NoisySquares {
+  double all{}, noise{};
+  NoisySquares& operator+=(const NoisySquares& other) {
+    all += other.all, noise += other.noise;
+    return *this;
+  }
+  [[nodiscard]] double noise_share() const { return all > 0 ? noise / all : 0.0; }
+};
+/// Of the wheels' mean and of half their difference.
+struct NoisyModes {
+  NoisySquares driving{}, turning{};
+};
+
 /// Sets to zero what is no more than the encoders' noise: of the wheels' mean acceleration (driving) and half
 /// their difference (turning), each by itself, the samples about which the mean square stays below
 /// kAccelerationOverNoise times the noise. The noise is that of the third differences of the accelerations
 /// themselves, by the median: that of a signal that mostly repeats its values is 0.
 /// `third_difference_gain`: variance of a third difference of the noise over that of the noise, 20 if it is
-/// white. Samples further apart than kLongestNoisePeriod_s stay as they are.
-void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, double third_difference_gain,
-                               double period_s);
+/// white. Samples further apart than kLongestNoisePeriod_s stay as they are. Returns what is left.
+NoisyModes remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2,
+                                     double third_difference_gain, double period_s);
 
 /// The same for jerks, which come in short peaks: three samples count.
 void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain);

@@ -8,6 +8,7 @@
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/signals/acceleration_noise.hpp"
+#include "diagnosis/signals/kernel_width.hpp"
 #include "diagnosis/signals/velocity_filter.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"
@@ -50,8 +51,8 @@ UniformLog uniform_grid(const Samples& time_s) {
 double kernel_sigma_s(const Samples& time_s, const SignalOptions& options, double velocity_filter_s) {
   constexpr double kKernelsOfLog = 14;  // twice the kernel's length
   if (options.kernel_sigma_s < kKernelSigma_s) return options.kernel_sigma_s;
-  return std::max(options.kernel_sigma_s,
-                  std::min(velocity_filter_s, (time_s.back() - time_s.front()) / kKernelsOfLog));
+  return std::max(kKernelSigma_s, std::min(std::max(options.kernel_sigma_s, velocity_filter_s),
+                                           (time_s.back() - time_s.front()) / kKernelsOfLog));
 }
 
 class Thinner {
@@ -135,13 +136,15 @@ class Thinner {
   }
 
  private:
-  /// Rows are about `period_s` apart: every so many fine samples, which are at most about kPeriod_s apart.
+  /// Rows are about `period_s` apart: every so many fine samples, which are at most about kPeriod_s apart,
+  /// under a wider kernel as much further.
   void set_strides(double period_s) {
     const auto steps = [&](double length_s) {
       return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length_s / grid_.period_s)));
     };
-    const std::size_t stride = steps(period_s);
-    thinning_ = (stride + steps(kPeriod_s) - 1) / steps(kPeriod_s);
+    const std::size_t stride = steps(period_s),
+                      most = steps(kPeriod_s * std::max(1.0, sigma_s_ / kKernelSigma_s));
+    thinning_ = (stride + most - 1) / most;
     fine_ = (stride + thinning_ - 1) / thinning_;
   }
 
@@ -414,6 +417,28 @@ bool has_usable_log(const Run& run) {
 }
 
 bool is_energy_run(const Run& run) { return run.motion && (run.measured_energy_J || run.battery_energy_Wh); }
+
+SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOptions& options) {
+  const Thinner thinner(run.log, options, run.velocity_filter_s);
+  const Sided<Samples> logged = wheel_speeds(run.log, robot);
+  const Sided<Samples> wheels{thinner.on_grid(logged.left), thinner.on_grid(logged.right)};
+  const Samples& weights = thinner.kernel().slope_weight;
+  Sided<Eigen::VectorXd> rate = thinner.fine(wheels, weights);
+  SmoothedNoise noise{.accelerations = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
+                                                                 thinner.fine_period_s()),
+                      .kernel_sigma_s = thinner.sigma_s()};
+  const double gain = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+  const auto limit = [&](double other, NoisySquares& squares) {
+    Samples mode = thinner.before_filter(wheels.left);
+    const Samples right = thinner.before_filter(wheels.right);
+    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = 0.5 * (mode[i] + other * right[i]);
+    const double white = gain * std::pow(noise_of(mode), 2) * static_cast<double>(rate.left.size());
+    squares.noise = std::min(squares.noise, white);
+  };
+  limit(1, noise.accelerations.driving);
+  limit(-1, noise.accelerations.turning);
+  return noise;
+}
 
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options) {

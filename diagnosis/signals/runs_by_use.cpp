@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "diagnosis/numerics/folds.hpp"
+#include "diagnosis/signals/kernel_width.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"
 
@@ -61,6 +62,7 @@ RunsByUse sort_runs(const Dataset& dataset, const std::set<std::size_t>& left_ou
   RunsByUse runs;
   runs.few = usable.size() < kLeastRunsToName || fitted.size() < kLeastRunsToName - 1;
   runs.options = sampling(dataset, usable);
+  widen_kernel(dataset, usable, runs.options);
   const auto logs = [&](const std::vector<std::size_t>& which) {
     return LogSet{.dataset = &dataset, .runs = which, .options = runs.options};
   };

@@ -11,6 +11,7 @@
 #include "diagnosis/evidence/identify.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/signals/manoeuvres.hpp"
+#include "diagnosis/signals/runs_by_use.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -45,6 +46,18 @@ TEST(AccelerationNoise, WhatStandsOutOfWhiteNoiseStays) {
   EXPECT_EQ(sparse.left, given.left);
 }
 
+/// Makes the speeds differences of an encoder's counts.
+void count_wheels(double counts, joulepath::Run& run) {
+  for (Side side : kSides) {
+    double angle_rad = 0, last_rad = 0;
+    for (double& speed : run.log.wheel_speed_rad_s[side]) {
+      angle_rad += 0.02 * speed;
+      const double whole_rad = std::floor(angle_rad * counts / 6.283185307) * 6.283185307 / counts;
+      speed = (whole_rad - last_rad) / 0.02, last_rad = whole_rad;
+    }
+  }
+}
+
 /// Speeds from an encoder's counts: their noise has little of its power where accelerations are. A gentle
 /// ramp of 0.05 m/s^2 at 2000 counts a turn stays, steady driving at 360 counts has no acceleration.
 TEST(AccelerationNoise, CountsOfAnEncoderHideNoGentleRamp) {
@@ -54,19 +67,43 @@ TEST(AccelerationNoise, CountsOfAnEncoderHideNoGentleRamp) {
       return BodyMotion<double>{.speed_m_s = 0.2 + acceleration_m_s2 * t,
                                 .acceleration_m_s2 = acceleration_m_s2};
     });
-    for (Side side : kSides) {
-      double angle_rad = 0, last_rad = 0;
-      for (double& speed : run.log.wheel_speed_rad_s[side]) {
-        angle_rad += 0.02 * speed;
-        const double whole_rad = std::floor(angle_rad * counts / 6.283185307) * 6.283185307 / counts;
-        speed = (whole_rad - last_rad) / 0.02, last_rad = whole_rad;
-      }
-    }
+    count_wheels(counts, run);
     return make_run_signals(run, 0, robot).wheel_acceleration_rad_s2;
   };
   const double due = 0.05 / robot.geometry.wheel_radius_m.left;
   EXPECT_NEAR(counted(2000, 0.05).left.segment(5, 180).mean(), due, 0.2 * due);
   EXPECT_GT(share_without(counted(360, 0.0).left), 0.9);
+}
+
+/// Four runs that weave, as an encoder counts them.
+Dataset weaving_day(double counts) {
+  Dataset day{.robot = testing::nomad()};
+  for (int k = 0; k < 4; ++k) {
+    day.runs.push_back(testing::synthetic_run(day.robot, "weave", 20, 0,
+                                              testing::swinging(0.5, 0.2, 1 + 0.1 * k, 0.3, 1.1)));
+    count_wheels(counts, day.runs.back());
+  }
+  return day;
+}
+
+/// Noise of an acceleration is motion without torque: a fit finds the share of the inertia that the true
+/// accelerations have in the measured ones. The kernel is as wide as leaves all but a percent of it, and rows
+/// keep their distance in its widths; fine encoders keep the usual kernel exactly.
+TEST(AccelerationNoise, OfCoarseEncodersTakesNoInertia) {
+  const Dataset day = weaving_day(512);
+  const RunsByUse coarse = sort_runs(day), fine = sort_runs(weaving_day(40000));
+  double due_by_found = 0, found_square = 0;
+  for (const RunSignals& run : coarse.signals)
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const BodyMotion<double> due =
+          testing::swinging(0.5, 0.2, 1 + 0.1 * static_cast<double>(run.run_index), 0.3, 1.1)(run.time_s[j]);
+      const double found = run.rolled_motion(day.robot.geometry, j).yaw_acceleration_rad_s2;
+      due_by_found += due.yaw_acceleration_rad_s2 * found, found_square += found * found;
+    }
+  EXPECT_GT(due_by_found / found_square, 0.99);
+  EXPECT_NEAR(coarse.options.period_s / coarse.options.kernel_sigma_s, kPeriod_s / kKernelSigma_s, 1e-9);
+  EXPECT_EQ(fine.options.kernel_sigma_s, kKernelSigma_s);
+  EXPECT_EQ(fine.options.period_s, kPeriod_s);
 }
 
 /// A wide arc is a turn: 2 m at 0.25 m/s. The noise of a straight run's wheels is none.
@@ -99,18 +136,19 @@ TEST(AccelerationNoise, ALongDatasetsSteadyMotionHasNoneEither) {
 /// A run that turns for a while: where it does not, the wheels' difference is noise and has no yaw rate.
 TEST(AccelerationNoise, AStraightPartOfARunThatTurnsHasNoYawRate) {
   const Geometry geometry = testing::nomad().geometry;
-  const RunSignals found = signals_of([](double t) {
-    return BodyMotion<double>{.speed_m_s = 0.5, .yaw_rate_rad_s = t > 12 ? 0.6 : 0.0};
-  });
+  const RunSignals found = signals_of(
+      [](double t) { return BodyMotion<double>{.speed_m_s = 0.5, .yaw_rate_rad_s = t > 12 ? 0.6 : 0.0}; });
   const RunSignals moves = straightened_where_straight(found);
   double share = 0, straight = 0;
   for (Eigen::Index j = 0; j < found.size(); ++j) {
     if (found.time_s[j] > 13) {
-      EXPECT_EQ(moves.rolled_motion(geometry, j).yaw_rate_rad_s, found.rolled_motion(geometry, j).yaw_rate_rad_s);
+      EXPECT_EQ(moves.rolled_motion(geometry, j).yaw_rate_rad_s,
+                found.rolled_motion(geometry, j).yaw_rate_rad_s);
     } else if (found.time_s[j] < 11) {
       straight += 1, share += std::abs(moves.rolled_motion(geometry, j).yaw_rate_rad_s) < 1e-12;
     }
-    EXPECT_NEAR(moves.rolled_motion(geometry, j).speed_m_s, found.rolled_motion(geometry, j).speed_m_s, 1e-12);
+    EXPECT_NEAR(moves.rolled_motion(geometry, j).speed_m_s, found.rolled_motion(geometry, j).speed_m_s,
+                1e-12);
   }
   EXPECT_GT(share / straight, 0.97);
 }
