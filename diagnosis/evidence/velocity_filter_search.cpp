@@ -10,6 +10,9 @@
 namespace joulepath {
 namespace {
 
+/// The windings' equation is linear: a wide kernel takes nothing from it but the noise, of which q' has most.
+constexpr double kFilterKernel_s = 0.15;
+
 /// Of all wheels, with the electrical channels read `shift_s` later.
 struct WindingFit {
   double left{};           ///< sum of squares that V = a + b i + c q leaves
@@ -42,9 +45,9 @@ WindingFit fit_windings(const std::vector<RunSignals>& signals, double shift_s) 
       };
       const Eigen::VectorXd volts = later(run.motor_voltage_V[side]);
       Eigen::MatrixX4d known(count, 4);
-      known << Eigen::VectorXd::Ones(count), later(run.motor_current_A[side]),
-          run.wheel_speed_rad_s[side].segment(margin, count),
-          run.wheel_acceleration_rad_s2[side].segment(margin, count);
+      const Eigen::VectorXd& speed = run.wheel_speed_rad_s[side];
+      known << Eigen::VectorXd::Ones(count), later(run.motor_current_A[side]), speed.segment(margin, count),
+          (speed.segment(margin + 1, count) - speed.segment(margin - 1, count)) / (2 * run.period_s);
       const Eigen::Matrix4d gram = known.transpose() * known;
       const Eigen::Vector4d product = known.transpose() * volts;
       const Eigen::Matrix3d gram_of_delay = gram.topLeftCorner<3, 3>();
@@ -72,6 +75,7 @@ WindingFit fit_windings(const std::vector<RunSignals>& signals, double shift_s) 
 LateSpeeds examine_late_speeds(const LogSet& logs, double delay_s) {
   LogSet fine = logs;
   fine.options.period_s = 0;  // every sample of the log
+  fine.options.kernel_sigma_s = std::max(kFilterKernel_s, fine.options.kernel_sigma_s);
   const std::vector<RunSignals> signals = read_signals(fine, 0.0);
   const WindingFit at_once = fit_windings(signals, 0.0);
   if (!at_once.any) return {.undecided = true};

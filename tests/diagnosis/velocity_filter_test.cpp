@@ -123,6 +123,17 @@ TEST(VelocityFilter, IsToldFromADelayByTheSecondOrder) {
   EXPECT_EQ(examined(day_of_ramps(3)).filter_s, 0);
 }
 
+/// Noise of a coarse encoder, which the slope of the speeds has most of, makes both fit alike under a narrow
+/// kernel.
+TEST(VelocityFilter, IsToldBehindACoarseEncoder) {
+  SensorSettings coarse = typical_sensors();
+  coarse.encoder_counts_per_revolution = 512;
+  Dataset day = day_of_ramps(6, {}, coarse);
+  EXPECT_EQ(examined(day).filter_s, 0);
+  smooth_speeds(0.06, day);
+  EXPECT_NEAR(examined(day).filter_s / 0.06, 1, 0.2);
+}
+
 /// A delay beside speeds that are means over two samples: what runs at rest leave is no sign of a filter.
 TEST(VelocityFilter, IsNotToldByRunsAtRest) {
   for (const long samples : {2L, 3L, 4L}) {
