@@ -59,8 +59,11 @@ void lay_grid(FinerPieces& finer, bool dense) {
 /// one where it fails without a gain.
 Candidate refined(const Candidate& coarse) {
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
+  // The program leaves the jerk limit out: with more pieces paths would follow what it lacks.
+  const bool knows_limits = std::isinf(coarse.start.program.laws.front().limits.jerk_m_s3);
   Candidate best = coarse;
   for (const std::size_t most_pieces : {kMostPieces, std::size_t{}}) {
+    if (most_pieces > 0 && !knows_limits) continue;
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
     lay_grid(finer, dense);
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
