@@ -13,7 +13,7 @@ import resource
 import subprocess
 import sys
 
-from programs import SCENARIOS, Floor, hall, quantile, warehouse
+from programs import SCENARIOS, depot, hall, quantile, warehouse
 
 REACH_M = 9  # from the start
 ENOUGH_PERCENT = 0.1
@@ -72,9 +72,8 @@ def case_on(program, folder, floor, draw, count, headings):
 def main():
     folder, program, count, seed, note = pathlib.Path(sys.argv[1]).resolve(), *sys.argv[2:]
     folder.mkdir(parents=True, exist_ok=True)
-    draw, maps = random.Random(int(seed)), SCENARIOS / "maps"
-    depot = Floor("Nav2's depot", maps / "depot.pgm", 0.05, (0, 0), {"map": str(maps / "depot.yaml")})
-    floors = (hall(folder, draw), warehouse(), depot)
+    draw = random.Random(int(seed))
+    floors = (hall(folder, draw), warehouse(), depot())
     rows = {}
     for k in range(int(count)):
         kind = KINDS[k % len(KINDS)]

@@ -81,6 +81,11 @@ def warehouse():
     return Floor("Nav2's warehouse", maps / "warehouse.pgm", 0.03, (-15.1, -25), {"map": str(maps / "warehouse.yaml")})
 
 
+def depot():
+    maps = SCENARIOS / "maps"
+    return Floor("Nav2's depot", maps / "depot.pgm", 0.05, (0, 0), {"map": str(maps / "depot.yaml")})
+
+
 def mission_on(floor, draw, payload_kg, headings, legs):
     def station():
         x_m, y_m = floor.place(draw)
@@ -107,10 +112,8 @@ def mission_on(floor, draw, payload_kg, headings, legs):
 
 def missions(folder, legs, seed):
     draw = random.Random(seed)
-    maps = SCENARIOS / "maps"
-    depot = Floor("Nav2's depot", maps / "depot.pgm", 0.05, (0, 0), {"map": str(maps / "depot.yaml")})
     return [(floor.name, payload_kg, headings, mission_on(floor, draw, payload_kg, headings, legs))
-            for floor in (hall(folder, draw), warehouse(), depot)
+            for floor in (hall(folder, draw), warehouse(), depot())
             for k in range(MISSIONS)
             for payload_kg, headings in [(PAYLOADS_KG[k % 3], k % 2 == 1)]]
 

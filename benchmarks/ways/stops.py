@@ -12,10 +12,9 @@ import random
 import sys
 
 from orders import plan
-from programs import SCENARIOS, Floor, hall, mission_on, quantile, warehouse
+from programs import PAYLOADS_KG, depot, hall, mission_on, quantile, warehouse
 
 LEGS = 3
-PAYLOADS_KG = (0, 6, 12)
 FIRST_STEP_RAD, LAST_STEP_RAD, SHORTER = 0.3, 0.02, 2.5
 AIM_PERCENT = 0.1
 
@@ -28,9 +27,9 @@ def arrivals_rad(folder, legs):
     return [float(min(rows, key=lambda row: abs(float(row["time_s"]) - end_s))["heading_rad"]) for end_s in ends_s]
 
 
-def least_J(energy_J, headings):
-    """The least energy that the search over headings finds, and how many plans it took."""
-    best_J, planned = energy_J(headings), 1
+def least_J(energy_J, headings, best_J):
+    """The least energy that the search over headings finds, from `best_J` of these, and how many plans it took."""
+    planned = 0
 
     def better(stop, heading_rad):
         nonlocal best_J, headings, planned
@@ -64,7 +63,7 @@ def case_on(program, folder, floor, draw, payload_kg):
         return plan(program, folder, {**mission, "stations": stations})[0].get("energy_J") or math.inf
 
     own_J = energy_J(headings)
-    best_J, planned = least_J(energy_J, headings)
+    best_J, planned = least_J(energy_J, headings, own_J)
     above = [100 * (free["energy_J"] / other_J - 1) for other_J in (own_J, min(best_J, free["energy_J"]))]
     print(floor.name, payload_kg, f"own {above[0]:+.3f} % best {above[1]:+.3f} %", planned, file=sys.stderr, flush=True)
     return above
@@ -74,9 +73,7 @@ def main():
     folder, program, count, seed, note = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], *map(int, sys.argv[3:5]), sys.argv[5]
     folder.mkdir(parents=True, exist_ok=True)
     draw = random.Random(seed)
-    maps = SCENARIOS / "maps"
-    floors = (hall(folder, draw), warehouse(),
-              Floor("Nav2's depot", maps / "depot.pgm", 0.05, (0, 0), {"map": str(maps / "depot.yaml")}))
+    floors = (hall(folder, draw), warehouse(), depot())
     rows = {}
     for k in range(count):
         floor = floors[k % len(floors)]

@@ -55,24 +55,24 @@ void lay_grid(FinerPieces& finer, bool dense) {
   if (dense) program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
 }
 
-/// The solution on a finer grid from a coarse one, with finer pieces where the method finds it; the coarse
-/// one where it fails without a gain.
+/// The solution on a finer grid from a coarse one, with finer pieces where the method converges on them; the
+/// cheapest that is nearly feasible where it converges on neither.
 Candidate refined(const Candidate& coarse) {
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
   // The program leaves the jerk limit out: with more pieces paths would follow what it lacks.
   const bool knows_limits = std::isinf(coarse.start.program.laws.front().limits.jerk_m_s3);
   Candidate best = coarse;
-  for (const std::size_t most_pieces : {kMostPieces, std::size_t{}}) {
-    if (most_pieces > 0 && !knows_limits) continue;
+  for (std::size_t most_pieces = knows_limits ? kMostPieces : 0;; most_pieces = 0) {
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
     lay_grid(finer, dense);
+    const bool whole = finer.start.program.pieces.size() == coarse.start.program.pieces.size();
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
     Candidate fine{.start = std::move(finer.start)};
     fine.solution = JointNewton(fine.start, kWarmGap, squares).run({.tolerance = kFineTolerance});
     if (fine.solution.converged) return fine;
     if (fine.solution.feasible && fine.solution.cost_J < best.solution.cost_J) best = std::move(fine);
+    if (whole) return best;
   }
-  return best;
 }
 
 /// Largest missing clearance along paths; negative: a path cannot be driven as it is.
