@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "diagnosis/numerics/smoothing.hpp"
-#include "diagnosis/signals/acceleration_noise.hpp"
-#include "diagnosis/signals/kernel_width.hpp"
 #include "diagnosis/signals/velocity_filter.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"

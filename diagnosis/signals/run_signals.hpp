@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/signals/acceleration_noise.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/dataset.hpp"
@@ -130,6 +131,15 @@ struct SignalOptions {
 /// Smooths and downsamples a usable log; at least one row is left.
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options = {});
+
+/// Noise of a usable log's accelerations, and the width of the kernel under which it was seen. What the third
+/// differences of smoothed accelerations have is noise or motion; noise is no more than white noise of the
+/// samples would leave.
+struct SmoothedNoise {
+  NoisyModes accelerations{};
+  double kernel_sigma_s{};
+};
+[[nodiscard]] SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOptions& options);
 
 /// True for a run that can be diagnosed sample by sample: wheel speeds, `kLeastSamples`, `kLeastLength_s`.
 bool has_usable_log(const Run& run);
