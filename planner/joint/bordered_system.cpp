@@ -23,6 +23,7 @@ void BorderedSystem::clear() {
   for (VectorXd* zero :
        {&g.squares, &g.parameters, &lagrangian.squares, &lagrangian.parameters, &diagonal_, &beside_})
     zero->setZero();
+  for (Eigen::Matrix<double, 2, 3>& border : border_) border.setZero();
   hessian.setZero();
 }
 
@@ -37,7 +38,7 @@ void BorderedSystem::add(std::size_t part, const std::array<double, kPartUnknown
         if (unknown[i] < 0 || unknown[n] < 0) continue;
         (i == n ? diagonal_[unknown[i]] : beside_[unknown[n]]) += h;
       } else if (n < 2) {
-        border_[part](static_cast<Index>(n), static_cast<Index>(i) - 2) = h;
+        border_[part](static_cast<Index>(n), static_cast<Index>(i) - 2) += h;
       } else {
         hessian(column[i - 2], column[n - 2]) += h;
         if (n < i) hessian(column[n - 2], column[i - 2]) += h;

@@ -6,8 +6,10 @@
 #include "planner/joint/clearance_rows.hpp"
 #include "planner/joint/interior_rows.hpp"
 #include "planner/joint/joint_segment.hpp"
+#include "planner/joint/motor_rows.hpp"
 #include "planner/joint/path_geometry.hpp"
 #include "planner/joint/regularized_step.hpp"
+#include "planner/joint/speed_parts.hpp"
 #include "planner/joint/start_fit.hpp"
 
 namespace joulepath::joint {
@@ -25,6 +27,7 @@ constexpr double kDisplacementWeight = 2;  ///< of the path's displacement in th
 constexpr double kLeastOfRest = 0.3;       ///< of the other residuals: the least complementarity
 constexpr double kFeasible = 0.01;         ///< of residuals relative to the cost, and of the targets (m)
 constexpr double kStartShare = 0.6;        ///< of the limits that a start uses
+constexpr double kRowWeight = 0.05;        ///< of a row's violation in the merit
 constexpr double kStalled = 1e-6;          ///< a shorter step leads nowhere
 constexpr double kDeep_m = 0.1;            ///< of a missing clearance: beyond, the way out may be lost
 constexpr int kWayOut = 15;                ///< steps until no place may lie deeper than that
@@ -50,12 +53,6 @@ class JointNewton::Steps {
   JointSolution run(const NewtonOptions& options);
 
  private:
-  /// A part of a piece between two nodes of the speed.
-  struct Part {
-    std::size_t piece{};
-    double f0{}, f1{};
-    Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
-  };
   struct Sums {
     double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
     bool lost{};  ///< a place lies so deep in an obstacle that no direction leads out, or still does after
@@ -68,16 +65,17 @@ class JointNewton::Steps {
   struct Values {
     std::vector<SegmentValues<double>> parts{};
     std::vector<ClearanceRows::Nearest> clearance{};
+    std::vector<double> motors{};
     VectorXd errors{};
   };
 
   void lay_out();
   void begin_speed();
-  double cap(const Part& part, double f) const;
+  double cap(const SpeedPart& part, double f) const;
   void begin_rows();
   template <class Each>
   void for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each);
-  const DriveLaw& law(const Part& part) const { return program_.laws[program_.pieces[part.piece].law]; }
+  const DriveLaw& law(const SpeedPart& part) const { return program_.laws[program_.pieces[part.piece].law]; }
   template <class Real>
   double row_value(std::size_t k, std::size_t r, const SegmentValues<Real>& at) const {
     const RowLaw& row = row_laws_[parts_[k].piece][r];
@@ -87,11 +85,7 @@ class JointNewton::Steps {
     else
       return 1 + row.slope * quantity.value;
   }
-  double loss(const Part& part) const { return 1 - law(part).efficiency; }
-  std::array<Index, 3> columns(const Part& part) const {
-    const Piece& piece = program_.pieces[part.piece];
-    return {piece.from, piece.to, program_.length_of(part.piece)};
-  }
+  double loss(const SpeedPart& part) const { return 1 - law(part).efficiency; }
   template <class Real>
   SegmentValues<Real> values_of(std::size_t k, const VectorXd& squares, const VectorXd& parameters) const;
   Values values(const VectorXd& squares, const VectorXd& parameters) const;
@@ -111,7 +105,7 @@ class JointNewton::Steps {
   double gap_;
   std::vector<std::array<RowLaw, kSegmentRows>> row_laws_{};  ///< per piece
   double scale_{1};                                           ///< program's unit per J
-  std::vector<Part> parts_{};
+  std::vector<SpeedPart> parts_;
   Index free_{};           ///< number of unknown squares
   double most_square_{1};  ///< scale of b
   VectorXd b_{}, p_{};     ///< squares at all nodes; parameters
@@ -122,6 +116,7 @@ class JointNewton::Steps {
   std::vector<Row> bounds_{};
   std::vector<Index> held_;  ///< knots that do not move
   ClearanceRows clearance_;
+  MotorRows motors_;
   PathGeometry geometry_;
   BorderedSystem system_{};
   VectorXd lambda_{};  ///< multipliers of the targets
@@ -141,9 +136,11 @@ class JointNewton::Steps {
 JointNewton::Steps::Steps(const Start& start, double gap, const VectorXd& squares)
     : program_(start.program),
       gap_(gap),
+      parts_(speed_parts(program_)),
       p_(start.parameters),
       held_(program_.held()),
       clearance_(program_),
+      motors_(program_, parts_),
       geometry_(program_) {
   lay_out();
   if (squares.size()) {
@@ -161,20 +158,11 @@ JointNewton::Steps::Steps(const Start& start, double gap, const VectorXd& square
 void JointNewton::Steps::lay_out() {
   for (const Piece& piece : program_.pieces)
     row_laws_.push_back(row_laws(program_.laws[piece.law].limits, piece.sign));
-  for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
-    const Piece& piece = program_.pieces[j];
-    for (std::size_t i = 0; i < piece.segments; ++i) {
-      Part part{.piece = j,
-                .f0 = static_cast<double>(i) / static_cast<double>(piece.segments),
-                .f1 = static_cast<double>(i + 1) / static_cast<double>(piece.segments)};
-      part.b0 = parts_.empty() ? -1 : parts_.back().b1;
-      const bool ends = i + 1 == piece.segments, last = ends && j + 1 == program_.pieces.size();
-      part.b1 = last || (ends && piece.rests_after) ? -1 : free_++;
-      parts_.push_back(part);
-    }
-  }
   std::vector<BorderedSystem::Part> unknowns;
-  for (const Part& part : parts_) unknowns.push_back({{part.b0, part.b1}, columns(part)});
+  for (const SpeedPart& part : parts_) {
+    unknowns.push_back({{part.b0, part.b1}, part.parameters});
+    free_ = std::max(free_, part.b1 + 1);
+  }
   system_ = BorderedSystem(std::move(unknowns), free_, program_.parameters());
   const Limits& most = program_.laws.front().limits;
   const double fastest = std::isfinite(most.speed_m_s) ? most.speed_m_s : 1.0;
@@ -182,9 +170,9 @@ void JointNewton::Steps::lay_out() {
 }
 
 /// Square of the rate that a start has at most at a place.
-double JointNewton::Steps::cap(const Part& part, double f) const {
+double JointNewton::Steps::cap(const SpeedPart& part, double f) const {
   const Limits& most = law(part).limits;
-  const auto [a, b, l] = columns(part);
+  const auto [a, b, l] = part.parameters;
   const PieceRates<double> rates = piece_rates(p_[a], p_[b], program_.half_track_m());
   const double A = std::abs(rates.A(f)) + 1e-9, W = std::abs(rates.W(f)) + 1e-9, length_m = p_[l];
   const auto least = [](double x, double y) { return std::isfinite(y) ? std::min(x, y) : x; };
@@ -202,12 +190,12 @@ void JointNewton::Steps::begin_speed() {
   b_.setConstant(count + 1, kNoLimit);
   VectorXd gain(count);
   for (Index k = 0; k < count; ++k) {
-    const Part& part = parts_[static_cast<std::size_t>(k)];
+    const SpeedPart& part = parts_[static_cast<std::size_t>(k)];
     b_[k] = std::min(b_[k], cap(part, part.f0));
     b_[k + 1] = cap(part, part.f1);
     if (part.b0 < 0) b_[k] = 0;
     if (part.b1 < 0) b_[k + 1] = 0;
-    const auto [from, to, l] = columns(part);
+    const auto [from, to, l] = part.parameters;
     const PieceRates<double> rates = piece_rates(p_[from], p_[to], program_.half_track_m());
     const double A = std::max(std::abs(rates.A(part.f0)), std::abs(rates.A(part.f1))),
                  W = std::max(std::abs(rates.W(part.f0)), std::abs(rates.W(part.f1)));
@@ -226,19 +214,9 @@ void JointNewton::Steps::begin_speed() {
 template <class Real>
 SegmentValues<Real> JointNewton::Steps::values_of(std::size_t k, const VectorXd& squares,
                                                   const VectorXd& p) const {
-  const Part& part = parts_[k];
-  const auto [a, b, l] = columns(part);
-  const auto at = static_cast<Index>(k);
-  const std::array<double, kSegmentVariables> x{squares[at], squares[at + 1], p[a], p[b], p[l]};
-  std::array<Real, kSegmentVariables> variables;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if constexpr (std::is_same_v<Real, double>)
-      variables[i] = x[i];
-    else
-      variables[i] =
-          (i == 0 && part.b0 < 0) || (i == 1 && part.b1 < 0) ? Real(x[i]) : Real::variable(i, x[i]);
+  const SpeedPart& part = parts_[k];
   SegmentValues<Real> out;
-  evaluate_segment(law(part), variables, part.f0, part.f1, out);
+  evaluate_segment(law(part), variables_of<Real>(part, k, squares, p), part.f0, part.f1, out);
   for (Real& energy : out.energy_J) energy = energy * scale_;
   return out;
 }
@@ -252,6 +230,7 @@ JointNewton::Steps::Values JointNewton::Steps::values(const VectorXd& squares,
   geometry.place(parameters);
   all.errors = geometry.errors();
   all.clearance = clearance_.nearest(geometry);
+  all.motors = motors_.values(squares, parameters);
   return all;
 }
 
@@ -378,6 +357,9 @@ JointNewton::Steps::Sums JointNewton::Steps::assemble() {
   const auto clear = clearance_.assemble(geometry_, mu_);
   sums.complementarity += clear.complementarity;
   sums.primal += clear.primal;
+  const auto motors = motors_.assemble(b_, p_, mu_, system_);
+  sums.complementarity += motors.complementarity;
+  sums.primal += motors.primal;
   sums.lost = clear.lost || (solution_.steps >= kWayOut && clear.least_m < -kDeep_m);
   geometry_.add_sums(lambda_, system_.g.parameters, system_.lagrangian.parameters, system_.hessian);
   system_.metric = kDisplacementWeight * geometry_.displacement_metric();
@@ -406,10 +388,8 @@ StepLengths JointNewton::Steps::step_rows() {
   const VectorXd &db = system_.step.squares, &dp = system_.step.parameters;
   StepLengths lengths;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const Part& part = parts_[k];
-    const auto [a, b, l] = columns(part);
-    const std::array<double, kSegmentVariables> d{part.b0 < 0 ? 0 : db[part.b0],
-                                                  part.b1 < 0 ? 0 : db[part.b1], dp[a], dp[b], dp[l]};
+    const SpeedPart& part = parts_[k];
+    const auto d = changes_of(part, system_.step);
     const auto change = [&](const Jet& f) {
       double sum = 0;
       for (std::size_t i = 0; i < d.size(); ++i) sum += f.d[i] * d[i];
@@ -429,6 +409,7 @@ StepLengths JointNewton::Steps::step_rows() {
     row.step(slope * (square ? db : dp)[at], mu_, lengths);
   });
   clearance_.step(geometry_.changes(dp), mu_, lengths);
+  motors_.step(system_.step, mu_, lengths);
   for (Index i = 0; i < dp.size(); ++i) {
     const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
     if (std::abs(dp[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp[i]));
@@ -446,11 +427,12 @@ double JointNewton::Steps::merit(const Values& at, const VectorXd& squares, cons
     for (std::size_t c = 0; c < 2; ++c)
       sum += channels_[k][c].merit(step, at.parts[k].energy_J[c], loss(parts_[k]), mu_);
     for (std::size_t r = parts_[k].b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r)
-      sum += rows_[k][r].merit(step, row_value(k, r, at.parts[k]), mu_, 0.05);
+      sum += rows_[k][r].merit(step, row_value(k, r, at.parts[k]), mu_, kRowWeight);
   }
-  for_bounds(squares, parameters,
-             [&](Row& row, double value, Index, bool, double) { sum += row.merit(step, value, mu_, 0.05); });
-  return sum + clearance_.merit(at.clearance, step, mu_);
+  for_bounds(squares, parameters, [&](Row& row, double value, Index, bool, double) {
+    sum += row.merit(step, value, mu_, kRowWeight);
+  });
+  return sum + clearance_.merit(at.clearance, step, mu_) + motors_.merit(at.motors, step, mu_, kRowWeight);
 }
 
 /// Second-order correction: moves back to what the linearized targets promise ([NocedalWright2006], 18.3).
@@ -472,6 +454,7 @@ void JointNewton::Steps::search(const StepLengths& lengths) {
   Values now;
   now.errors = system_.errors;
   now.clearance = clearance_.present();
+  now.motors = motors_.present();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     SegmentValues<double>& part = now.parts.emplace_back();
     part.duration_s = jets_[k].duration_s.value;
@@ -506,6 +489,7 @@ void JointNewton::Steps::search(const StepLengths& lengths) {
   for_bounds(b, p,
              [&](Row& row, double value, Index, bool, double) { row.take(step_, lengths.dual, value, mu_); });
   clearance_.take(next.clearance, step_, lengths.dual, mu_);
+  motors_.take(next.motors, step_, lengths.dual, mu_);
   lambda_ += step_ * (system_.multipliers - lambda_);
   b_ = std::move(b);
   p_ = std::move(p);
@@ -513,7 +497,7 @@ void JointNewton::Steps::search(const StepLengths& lengths) {
 
 /// The barrier falls with the step's length, never below a share of the other residuals.
 void JointNewton::Steps::lower_barrier(double tolerance) {
-  const auto pairs = static_cast<double>(pairs_);
+  const auto pairs = static_cast<double>(pairs_ + motors_.size());
   const double rest = std::max(sums_.primal, 0.1 * sums_.dual), last = 0.05 * tolerance * sums_.cost / pairs;
   const double factor = step_ > 0.6 ? std::max(0.1, 1 - step_) : step_ > 0.25 ? 0.5 : 1.0;
   const double aim = std::min(mu_, sums_.complementarity / pairs) * factor;
@@ -521,6 +505,7 @@ void JointNewton::Steps::lower_barrier(double tolerance) {
 }
 
 void JointNewton::Steps::look_at(const NewtonOptions& options) {
+  motors_.join(b_, p_, mu_);
   sums_ = assemble();
   assembled_ = true;
   solution_.cost_J = sums_.cost / scale_;

@@ -104,45 +104,76 @@ PieceRates<Real> piece_rates(const Real& from_rad, const Real& to_rad, double ha
   return {A0, cos(to_rad) - A0, W0, sin(to_rad) / half_track_m - W0};
 }
 
+/// The motion of a part of a piece: the square of dtau/dt is linear in tau.
+template <class Real>
+struct PartMotion {
+  PieceRates<Real> rates{};
+  Real rate_gain{};           ///< d^2 tau/dt^2
+  Real A_slope{}, W_slope{};  ///< by tau
+
+  PartMotion(const DriveLaw& law, const std::array<Real, kSegmentVariables>& x, const Real& per_length,
+             double part)
+      : rates(piece_rates(x[2], x[3], law.half_track_m)),
+        rate_gain((x[1] - x[0]) * per_length * (0.5 / part)),
+        A_slope(rates.dA * per_length),
+        W_slope(rates.dW * per_length) {}
+
+  /// At a place with A and W, where dtau/dt is u and its square b.
+  BodyMotion<Real> at(const Real& A, const Real& W, const Real& u, const Real& b) const {
+    return {A * u, A * rate_gain + A_slope * b, W * u, W * rate_gain + W_slope * b};
+  }
+};
+
+/// The sign of a wheel's speed.
+template <class Real>
+Real wheel_sign(const DriveLaw& law, Side side, const Real& A, const Real& W) {
+  return rounded_sign(A + W * (side_sign(side) * law.half_track_m), kSignWidth);
+}
+
+template <class Real>
+Real value_of(const WheelForm& form, const BodyMotion<Real>& body, const Real& sign) {
+  const Real &v = body.speed_m_s, &w = body.yaw_rate_rad_s;
+  Real value =
+      linear(form.constant,
+             std::array{form.sign, form.speed, form.yaw_rate, form.acceleration, form.yaw_acceleration},
+             std::array{&sign, &v, &w, &body.acceleration_m_s2, &body.yaw_acceleration_rad_s2});
+  if (form.yaw_rate_squared != 0) value += form.yaw_rate_squared * (w * w);
+  if (form.speed_by_yaw_rate != 0) value += form.speed_by_yaw_rate * (v * w);
+  return value;
+}
+
 /// Power (W) of one motor by the body's motion.
 template <class Real>
 Real motor_power_W(const WheelLaw& law, const BodyMotion<Real>& body, const Real& sign) {
-  const Real &v = body.speed_m_s, &w = body.yaw_rate_rad_s;
-  Real current_A = linear(
-      law.constant, std::array{law.sign, law.speed, law.yaw_rate, law.acceleration, law.yaw_acceleration},
-      std::array{&sign, &v, &w, &body.acceleration_m_s2, &body.yaw_acceleration_rad_s2});
-  if (law.yaw_rate_squared != 0) current_A += law.yaw_rate_squared * (w * w);
-  if (law.speed_by_yaw_rate != 0) current_A += law.speed_by_yaw_rate * (v * w);
+  const Real current_A = value_of(law.current_A, body, sign);
   const Real voltage_V =
       linear(law.emf, std::array{law.resistance, law.emf_speed, law.emf_yaw_rate, law.emf_sign},
-             std::array{&std::as_const(current_A), &v, &w, &sign});
+             std::array{&current_A, &body.speed_m_s, &body.yaw_rate_rad_s, &sign});
   return voltage_V * current_A;
 }
 
-/// Energy, duration and bounded quantities of the part [f0, f1] of a piece: the square of dtau/dt is linear
-/// in tau, two Gauss-Legendre points in time, as in the program of a given path
-/// (planner/nlp/transcription/formulation.hpp).
+/// Energy, duration and bounded quantities of the part [f0, f1] of a piece: two Gauss-Legendre points in
+/// time, as in the program of a given path (planner/nlp/transcription/formulation.hpp).
 template <class Real>
 void evaluate_segment(const DriveLaw& law, const std::array<Real, kSegmentVariables>& x, double f0, double f1,
                       SegmentValues<Real>& out) {
   using std::sqrt;
-  const auto& [b0, b1, from_rad, to_rad, length_m] = x;
-  const PieceRates<Real> rates = piece_rates(from_rad, to_rad, law.half_track_m);
-  const double part = f1 - f0, l = law.half_track_m;
+  const Real &b0 = x[0], &b1 = x[1], &length_m = x[4];
+  const double part = f1 - f0;
   const Real u0 = sqrt(b0), u1 = sqrt(b1), per_sum = 1.0 / (u0 + u1), per_length = 1.0 / length_m;
-  const Real a = (b1 - b0) * per_length * (0.5 / part), A_slope = rates.dA * per_length,
-             W_slope = rates.dW * per_length, gain = u1 - u0;
+  const Real gain = u1 - u0;
+  const PartMotion<Real> motion(law, x, per_length, part);
+  const PieceRates<Real>& rates = motion.rates;
   out.duration_s = length_m * per_sum * (2 * part);
   out.energy_J = {Real(0.0), Real(0.0)};
   for (const double time : nlp::kEnergyTimes) {
     const Real u = u0 + gain * time, b = u * u;
     const Real f = (u0 * (2 * time) + gain * (time * time)) * per_sum * part + f0;
     const Real A = rates.A0 + rates.dA * f, W = rates.W0 + rates.dW * f;
-    const BodyMotion<Real> body{A * u, A * a + A_slope * b, W * u, W * a + W_slope * b};
+    const BodyMotion<Real> body = motion.at(A, W, u, b);
     for (const Side side : kSides) {
-      const Real wheel = A + W * (side == Side::right ? l : -l);
       const std::size_t channel = law.shared_bus ? 0 : static_cast<std::size_t>(side == Side::left);
-      out.energy_J[channel] += motor_power_W(law.wheel[side], body, rounded_sign(wheel, kSignWidth));
+      out.energy_J[channel] += motor_power_W(law.wheel[side], body, wheel_sign(law, side, A, W));
     }
   }
   for (Real& energy : out.energy_J) energy = energy * out.duration_s * 0.5;
@@ -153,8 +184,8 @@ void evaluate_segment(const DriveLaw& law, const std::array<Real, kSegmentVariab
   for (std::size_t end = 0; end < 2; ++end) {
     const Real& b = end == 0 ? b0 : b1;
     const double f = end == 0 ? f0 : f1;
-    out.bounded[3 + 2 * end] = rates.A(f) * a + A_slope * b;
-    out.bounded[4 + 2 * end] = rates.W(f) * a + W_slope * b;
+    out.bounded[3 + 2 * end] = rates.A(f) * motion.rate_gain + motion.A_slope * b;
+    out.bounded[4 + 2 * end] = rates.W(f) * motion.rate_gain + motion.W_slope * b;
   }
 }
 

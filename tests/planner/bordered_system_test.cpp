@@ -37,7 +37,8 @@ struct TwoPieces {
         {{-1, 0}, {0, 1, 4}}, {{0, 1}, {0, 1, 4}}, {{1, 2}, {1, 2, 5}}, {{2, -1}, {1, 2, 5}}};
     system = BorderedSystem(parts, kSquares, kParameters);
     system.clear();
-    for (std::size_t k = 0; k < parts.size(); ++k) add(k, parts[k]);
+    for (int times = 0; times < 2; ++times)  // a part and its rows
+      for (std::size_t k = 0; k < parts.size(); ++k) add(k, parts[k]);
     for (Index at = 0; at < kParameters; ++at) add_bound(false, at);  // the knot 3 has no part
     for (Index at = 0; at < kSquares; ++at) add_bound(true, at);
     system.targets = draw.matrix(kErrors, kParameters);
