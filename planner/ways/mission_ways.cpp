@@ -1,5 +1,6 @@
 #include "planner/ways/mission_ways.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/progress.hpp"
@@ -12,6 +13,9 @@
 // Design: docs/decisions/0210-ways.md
 namespace joulepath {
 namespace {
+
+constexpr int kMostRounds = 3;         ///< of closing what a way around meets
+constexpr std::size_t kMostAlone = 4;  ///< dear parts that are closed each alone
 
 LegQuestion question_of(const ChoiceContext& context, std::size_t leg) {
   const LegRequest& asked = context.mission.legs[leg];
@@ -51,17 +55,17 @@ std::vector<MissionWays::Together> MissionWays::groups_from(std::size_t leg, Leg
   return groups;
 }
 
-std::vector<PooledRoute> MissionWays::routes_of(std::size_t leg, const RouteRequest& request,
-                                                double price_W) const {
-  const LegQuestion question = question_of(context(price_W), leg);
-  const auto search = [&] { return pool_routes(*space_, request, {}); };
+std::vector<PooledRoute> MissionWays::routes_of(std::size_t leg, const RouteRequest& request, double price_W,
+                                                const RouteSpace& space) const {
+  const LegQuestion question = question_of(context(price_W, &space), leg);
+  const auto search = [&] { return pool_routes(space, request, {}); };
   std::vector<PooledRoute> routes =
       request.cost.rate ? search()
                         : remembered(options_.answers, "routes", search, request.start.x_m, request.start.y_m,
-                                     request.goal_x_m, request.goal_y_m, end_headings(*space_, request),
+                                     request.goal_x_m, request.goal_y_m, end_headings(space, request),
                                      request.cost.per_rad, request.seed);
   if (!world_.route_graph) return routes;
-  const RouteResult on_graph = plan_graph_route(*space_, request, *world_.route_graph);
+  const RouteResult on_graph = plan_graph_route(space, request, *world_.route_graph);
   if (on_graph.found())
     routes.push_back({.polyline_m = on_graph.polyline_m,
                       .cost = on_graph.polyline_cost,
@@ -69,26 +73,85 @@ std::vector<PooledRoute> MissionWays::routes_of(std::size_t leg, const RouteRequ
   return routes;
 }
 
+std::vector<LegPath> MissionWays::choose_on(const RouteSpace& space, const Together& legs,
+                                            const std::vector<double>& price_W, bool quick) const {
+  WayRun run{.first = legs.first, .start = legs.start, .quick = quick};
+  LegStart there = legs.start;
+  for (std::size_t leg = legs.first; leg < legs.first + legs.count; ++leg) {
+    const ChoiceContext at_price = context(price_W[leg], &space);
+    TurnScores turns(at_price);
+    LegRoutes routes{.request = route_request(mission_.legs[leg], there, mission_, options_)};
+    routes.request.cost = travel_cost(mission_.legs[leg], at_price, turns);
+    routes.routes = routes_of(leg, routes.request, price_W[leg], space);
+    if (routes.routes.empty()) break;
+    run.contexts.push_back(at_price);
+    run.routes.push_back(std::move(routes));
+    there = {{stop_of(leg).x_m, stop_of(leg).y_m, 0.0}, true};
+  }
+  return choose_run(run);
+}
+
+double MissionWays::cost_J(const Together& legs, const std::vector<LegPath>& paths,
+                           const std::vector<double>& price_W) const {
+  if (paths.size() < legs.count) return kNoLimit;
+  double sum_J = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::size_t leg = legs.first + i;
+    const ChoiceContext at_price = context(price_W[leg], space_);
+    sum_J += score_path(paths[i].path, mission_.legs[leg], leg, at_price, options_.nodes)
+                 .cost_J(at_price.finite_price_W());
+  }
+  return sum_J;
+}
+
+/// The cheapest of a choice and those on floors without the dear parts on its way: all of them, with those
+/// that a way around them meets, and each alone. A part that holds an end of a leg stays.
+std::vector<LegPath> MissionWays::cheapest_detour(std::vector<LegPath> best, const Together& legs,
+                                                  const std::vector<double>& price_W, bool quick,
+                                                  const DearFloor::Parts& kept) const {
+  DearFloor::Parts closed;
+  const auto met = [&](const std::vector<LegPath>& ways) {
+    std::vector<Path> paths;
+    for (const LegPath& way : ways) paths.push_back(way.path);
+    DearFloor::Parts parts = dear_.along(paths);
+    std::erase_if(parts, [&](int part) {
+      return std::binary_search(kept.begin(), kept.end(), part) ||
+             std::binary_search(closed.begin(), closed.end(), part);
+    });
+    return parts;
+  };
+  const DearFloor::Parts first = met(best);
+  if (first.empty()) return best;
+  double best_J = cost_J(legs, best, price_W);
+  const auto around = [&](const DearFloor::Parts& parts) {
+    std::vector<LegPath> ways = choose_on(dear_.without(parts), legs, price_W, quick);
+    DearFloor::Parts others = met(ways);
+    if (const double other_J = cost_J(legs, ways, price_W); other_J < best_J) {
+      best_J = other_J;
+      best = std::move(ways);
+    }
+    return others;
+  };
+  DearFloor::Parts more = first;
+  for (int round = 0; round < kMostRounds && !more.empty(); ++round) {
+    closed.insert(closed.end(), more.begin(), more.end());
+    std::sort(closed.begin(), closed.end());
+    more = around(closed);
+  }
+  for (std::size_t i = 0; closed.size() > 1 && i < std::min(first.size(), kMostAlone); ++i)
+    around({first[i]});
+  return best;
+}
+
 std::vector<LegPath> MissionWays::choose_together(const Together& legs, const std::vector<double>& price_W,
                                                   bool quick) const {
   std::vector<LegQuestion> questions;
   for (std::size_t leg = legs.first; leg < legs.first + legs.count; ++leg)
-    questions.push_back(question_of(context(price_W[leg]), leg));
+    questions.push_back(question_of(context(price_W[leg], space_), leg));
   const auto compute = [&] {
-    WayRun run{.first = legs.first, .start = legs.start, .quick = quick};
-    LegStart there = legs.start;
-    for (std::size_t leg = legs.first; leg < legs.first + legs.count; ++leg) {
-      const ChoiceContext at_price = context(price_W[leg]);
-      TurnScores turns(at_price);
-      LegRoutes routes{.request = route_request(mission_.legs[leg], there, mission_, options_)};
-      routes.request.cost = travel_cost(mission_.legs[leg], at_price, turns);
-      routes.routes = routes_of(leg, routes.request, price_W[leg]);
-      if (routes.routes.empty()) break;
-      run.contexts.push_back(at_price);
-      run.routes.push_back(std::move(routes));
-      there = {{stop_of(leg).x_m, stop_of(leg).y_m, 0.0}, true};
-    }
-    return choose_run(run);
+    std::vector<Point2> ends_m{{legs.start.pose.x_m, legs.start.pose.y_m}};
+    for (const LegQuestion& question : questions) ends_m.push_back({question.goal_x_m, question.goal_y_m});
+    return cheapest_detour(choose_on(*space_, legs, price_W, quick), legs, price_W, quick, dear_.at(ends_m));
   };
   return remembered(options_.answers, "ways", compute, quick, legs.start, questions, options_.steps,
                     options_.nodes, options_.accuracy, options_.seed, drifting_constants(plant_));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <mutex>
 
 #include "planner/path/floor/path_conflict.hpp"
@@ -131,6 +132,11 @@ struct RouteSpace::Narrow {
   std::optional<FreeSpace> space{};
 };
 
+struct RouteSpace::Others {
+  std::mutex mutex{};
+  std::map<std::vector<std::int8_t>, std::unique_ptr<RouteSpace>> spaces{};  ///< by the map's cells
+};
+
 RouteSpace::~RouteSpace() = default;
 RouteSpace::RouteSpace(RouteSpace&&) noexcept = default;
 RouteSpace& RouteSpace::operator=(RouteSpace&&) noexcept = default;
@@ -143,6 +149,7 @@ RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, c
   islands_m_ = island_points(any_heading_);
   routes_ = std::make_unique<RouteCache>();
   narrow_ = std::make_unique<Narrow>();
+  others_ = std::make_unique<Others>();
   if (!checker_.is_disc()) some_heading_.emplace(*field_, checker_.inscribed_radius_m() + clearance_m);
 }
 
@@ -155,6 +162,13 @@ const FreeSpace& RouteSpace::narrow() const {
   const std::lock_guard lock(narrow_->mutex);
   if (!narrow_->space) narrow_->space.emplace(*field_, some_heading().radius_m(), FreeSpace::kSmallestCell_m);
   return *narrow_->space;
+}
+
+const RouteSpace& RouteSpace::on(const OccupancyGrid& map, const std::function<RouteSpace()>& build) const {
+  const std::lock_guard lock(others_->mutex);
+  std::unique_ptr<RouteSpace>& other = others_->spaces[map.occupancy_percent];
+  if (!other) other = std::make_unique<RouteSpace>(build());
+  return *other;
 }
 
 RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ class RouteSpace {
   /// A point inside of every island (homotopy.hpp) of any_heading().
   const std::vector<Point2>& islands_m() const { return islands_m_; }
   RouteCache& routes() const { return *routes_; }
+  /// The floor for the same robot on another map, from `build`; called once for each map.
+  const RouteSpace& on(const OccupancyGrid& map, const std::function<RouteSpace()>& build) const;
 
  private:
   std::unique_ptr<ObstacleField> field_{};  ///< on the heap, because the checker keeps a pointer to it
@@ -51,6 +54,8 @@ class RouteSpace {
   std::unique_ptr<Narrow> narrow_{};
   std::vector<Point2> islands_m_{};
   std::unique_ptr<RouteCache> routes_;
+  struct Others;
+  std::unique_ptr<Others> others_{};
 };
 
 struct RouteRequest {
