@@ -33,16 +33,15 @@ class Chain {
   }
 
  private:
-  bool may_turn(const Pose& place, double from_rad, double to_rad) const {
-    return !request_.may_turn || request_.may_turn(place, from_rad, to_rad);
-  }
   static void charge(Joint& joint, const PathScore& score, double price_W, bool before) {
     (before ? joint.before : joint.after) += score;
     joint.cost_J += score.cost_J(price_W);
   }
   PathScore turn(const ChainLeg& leg, const Pose& place, double payload_kg, double from_rad,
                  double to_rad) const {
-    return may_turn(place, from_rad, to_rad) ? leg.turns->turn(from_rad, to_rad, payload_kg) : PathScore{};
+    if (!request_.turns_count) return {.drivable = true};
+    if (request_.may_turn && !request_.may_turn(place, from_rad, to_rad)) return {};
+    return leg.turns->turn(from_rad, to_rad, payload_kg);
   }
 
   Joint from_start(const Way& after) const {

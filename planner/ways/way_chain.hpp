@@ -26,6 +26,7 @@ struct ChainRequest {
   std::vector<ChainLeg> legs{};
   /// True if the robot may turn in place from one heading to another.
   std::function<bool(const Pose& place, double from_rad, double to_rad)> may_turn{};
+  bool turns_count{true};  ///< false: as if every turn could be driven, and for nothing
 };
 
 /// The choice for one leg.

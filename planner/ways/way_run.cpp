@@ -86,7 +86,7 @@ class RunChoice {
   }
 
   std::vector<ChainChoice> choose_chain();
-  std::vector<ChainChoice> ways_without_room() const;
+  std::vector<ChainChoice> ways_without_turns() const;
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -182,15 +182,12 @@ std::vector<ChainChoice> RunChoice::choose_chain() {
   return chain;
 }
 
-/// Ways as if there were room for every turn, for a run without a drivable choice where a leg may be driven
-/// in reverse; empty where none may.
-std::vector<ChainChoice> RunChoice::ways_without_room() const {
-  bool backward = false;
-  for (std::size_t k = 0; k < size(); ++k) backward = backward || may_reverse(context(k).world.robot, leg(k));
-  if (!backward) return {};
-  ChainRequest roomy = request_;
-  roomy.may_turn = {};
-  std::vector<ChainChoice> chain = cheapest_chain(roomy, [](std::size_t, const Way&) { return true; });
+/// Ways as if every turn could be driven, for a run without a drivable choice: the joint program may find
+/// one.
+std::vector<ChainChoice> RunChoice::ways_without_turns() const {
+  ChainRequest free = request_;
+  free.turns_count = false;
+  std::vector<ChainChoice> chain = cheapest_chain(free, [](std::size_t, const Way&) { return true; });
   for (std::size_t k = chain.size(); k < size() && !ways_[k].empty(); ++k)
     chain.push_back({.score = ways_[k].front().score});
   return chain.size() == size() ? chain : std::vector<ChainChoice>{};
@@ -198,7 +195,7 @@ std::vector<ChainChoice> RunChoice::ways_without_room() const {
 
 std::vector<LegPath> RunChoice::choose() {
   std::vector<ChainChoice> chain = choose_chain();
-  if (chain.empty()) chain = ways_without_room();
+  if (chain.empty()) chain = ways_without_turns();
   if (chain.empty()) return {};
   RefinedRun refined(request_, chain, run_);
   if (refined.barred() || (!run_.quick && steps_.refinement)) refined.join();

@@ -204,6 +204,23 @@ TEST(Ways, ATurnBeforeTheLegIsNoCheaperThanTheLegBesideAWall) {
       }
 }
 
+/// Wheels that hardly turn backward leave no turn in place within the motors' current, but arcs.
+TEST(Ways, ARobotThatCannotTurnInPlaceDrivesArcs) {
+  Robot robot = testing::nomad();
+  for (const Side side : kSides) robot.motor[side].max_current_A = 0.35;
+  robot.effects = {{.name = "direction_dependent_friction", .parameters = {{"reverse_torque_Nm", 0.3}}}};
+  MissionRequest mission{.name = "arcs", .clearance_m = 0.05};
+  mission.start = {.pose = {3, 12, 0}};
+  for (const double side : {1.0, -1.0}) {
+    mission.stations = {{"b", {.x_m = 6.5, .y_m = 12 + 1.5 * side, .heading_rad = side}}};
+    mission.legs = {{.to = "b"}};
+    const Plan plan = plan_of(mission, kCoarse, robot);
+    ASSERT_TRUE(is_driven(plan)) << plan.message;
+    for (const StretchPlan& stretch : plan.legs.front().stretches)
+      EXPECT_FALSE(is_turn(stretch.request.piece));
+  }
+}
+
 TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   const Robot robot = testing::nomad();
   const Plant plant = make_plant(robot);
