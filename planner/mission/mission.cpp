@@ -359,11 +359,13 @@ MissionRequest without_deadlines(MissionRequest mission) {
   return mission;
 }
 
+constexpr double kHaste = 10;  ///< between prices of time
+
 /// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
 /// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
 /// the others of a front: those between least energy and least time and, at prices above, those of least
-/// time. The least time is tried on those of least energy, too: the joint program tells small differences of
-/// time badly.
+/// time. The least time is tried on those of least energy and of less haste, too: the joint program tells
+/// small differences of time badly.
 Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                        const RouteSpace* space, const Plant& plant, const Plan& known) {
   BestPlan trials(mission.objective);
@@ -390,6 +392,15 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
     MissionRequest cheapest = mission;
     cheapest.objective.minimize = Objective::Minimize::energy;
     if (const double price_W = first_price_W(cheapest, world, plant); price_W != first_W) take(price_W);
+  }
+  // The joint program converges worse in the greatest haste, and it knows no limit of jerk.
+  const bool jerky = world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3);
+  if ((minimizes_time(mission) || jerky) && trials.best() && is_driven(*trials.best())) {
+    const double middle_W = middle_price_W(*trials.best());
+    const std::vector<double> calmer_W =
+        minimizes_time(mission) ? std::vector{kHaste * middle_W, middle_W} : std::vector{first_W / kHaste};
+    for (const double price_W : calmer_W)
+      if (price_W > 0) take(price_W);
   }
   if (trials.ends_late()) {
     const Plan patient = plan_given_legs(without_deadlines(mission), world, options, space, plant, known);

@@ -90,7 +90,12 @@ TEST(Ways, NoPlanUnderAJerkLimitIsFasterThanTheFastest) {
     mission.objective.deadline_s = frugal.duration_s * (1 + 1e-6);
     EXPECT_LE(plan_of(mission, kCoarse, robot).status, SolveStatus::feasible) << jerk;
     mission.objective = {.minimize = Objective::Minimize::time};
-    EXPECT_LE(plan_of(mission, kCoarse, robot).duration_s, frugal.duration_s * (1 + 1e-6)) << jerk;
+    const double fastest_s = plan_of(mission, kCoarse, robot).duration_s;
+    EXPECT_LE(fastest_s, frugal.duration_s * (1 + 1e-6)) << jerk;
+    for (const double value_W : {100.0, 3000.0}) {
+      mission.objective = {.minimize = Objective::Minimize::energy_and_time, .time_value_W = value_W};
+      EXPECT_LE(fastest_s, plan_of(mission, kCoarse, robot).duration_s * (1 + 1e-4)) << jerk;
+    }
   }
 }
 
