@@ -93,8 +93,11 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery, bool is_
     stream << " (95 %: " << figure(100 * (*battery.interval_95)[0], 5) << " to "
            << figure(100 * (*battery.interval_95)[1], 5) << ")";
   stream << ", needs " << figure(battery.required_capacity_Wh, 4) << " Wh"
-         << (is_upper_bound ? " (95 % upper bound)" : " expected") << ", "
-         << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
+         << (is_upper_bound ? " (95 % upper bound)" : " expected");
+  if (std::isfinite(battery.missions_per_charge))
+    stream << ", " << std::to_string(static_cast<long>(battery.missions_per_charge))
+           << " such missions per charge";
+  stream << '\n';
   if (battery.voltage_error_V)
     stream << "battery voltage at its least charge on each leg, at most "
            << figure(*battery.voltage_error_V, 2) << " V from the open-circuit curve\n";

@@ -133,7 +133,7 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   if (plan.energy_sigma_J) {
     const double half_width_J = kNormal95 * *plan.energy_sigma_J;
     account.interval_95 = {fraction_after(battery, account.end_fraction, half_width_J),
-                           fraction_after(battery, account.end_fraction, -half_width_J)};
+                           std::min(1.0, fraction_after(battery, account.end_fraction, -half_width_J))};
   }
   // A bound without the model's own error is none.
   const double margin_J =
@@ -141,7 +141,7 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   account.required_capacity_Wh = (charge.peak_J() + margin_J) / kJoulesPerWh;
   const double usable_Wh = battery.capacity_Wh * energy_share_between(battery, battery.reserve_fraction, 1.0);
   account.missions_per_charge =
-      account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : 0.0;
+      account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : kNoLimit;
   return account;
 }
 

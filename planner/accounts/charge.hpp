@@ -12,13 +12,17 @@ namespace joulepath {
 class Charge {
  public:
   Charge(const Battery& battery, double start_fraction)
-      : battery_(battery), capacity_J_(battery.capacity_Wh * kJoulesPerWh), start_(start_fraction) {}
+      : battery_(battery),
+        capacity_J_(battery.capacity_Wh * kJoulesPerWh),
+        start_(start_fraction),
+        full_J_(-energy_share_between(battery, start_fraction, 1.0) * capacity_J_) {}
 
   double fraction() const { return fraction_after(battery_, start_, net_J_); }
   double peak_J() const { return peak_J_; }
 
+  /// A full battery takes up nothing.
   void draw(double energy_J) {
-    net_J_ += energy_J;
+    net_J_ = std::max(net_J_ + energy_J, full_J_);
     peak_J_ = std::max(peak_J_, net_J_ - least_net_J_);
   }
   /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
@@ -36,6 +40,7 @@ class Charge {
   const Battery& battery_;
   double capacity_J_;
   double start_;
+  double full_J_;  ///< of net_J_, at most 0
   double net_J_{};
   double least_net_J_{};  ///< where the battery was fullest
   double peak_J_{};       ///< the greatest discharge from there on

@@ -169,7 +169,7 @@ Json battery_json(const BatteryAccount& battery) {
             {"interval_95", battery.interval_95 ? Json(*battery.interval_95) : Json(nullptr)},
             {"charged_J", battery.charged_J},
             {"required_capacity_Wh", battery.required_capacity_Wh},
-            {"missions_per_charge", battery.missions_per_charge},
+            {"missions_per_charge", number(battery.missions_per_charge)},
             {"lowest_voltage_V", number(battery.lowest_voltage_V)},
             {"fraction_after_leg", battery.fraction_after_leg}};
   if (battery.voltage_error_V) json["voltage_error_V"] = *battery.voltage_error_V;

@@ -383,6 +383,22 @@ TEST(Charging, TheChargeDoesNotFallAtAChargerThatFeedsTheRobot) {
     }
 }
 
+/// Energy that comes back to a full battery is lost.
+TEST(Charging, AFullBatteryTakesUpNothing) {
+  Plan plan;
+  plan.legs.resize(2);
+  plan.legs[0].energy.kinetic_J = -36000;
+  const auto downhill = battery_account(plan, {.plant = make_plant(testing::nomad())}, 1.0, 0.9);
+  ASSERT_TRUE(downhill);
+  EXPECT_EQ(downhill->end_fraction, 1.0);
+  EXPECT_TRUE(std::isinf(downhill->missions_per_charge));
+  plan.legs[1].energy.kinetic_J = 36000;
+  const auto back = battery_account(plan, {.plant = make_plant(testing::nomad())}, 1.0, 0.9);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->fraction_after_leg[0], 1.0);
+  EXPECT_NEAR(back->required_capacity_Wh, 10.0, 1e-6);
+}
+
 /// After a charge at the start the mission needs what it draws from then on.
 TEST(Charging, TheRequiredCapacityIsTheGreatestDischarge) {
   Plan plan;
