@@ -148,8 +148,12 @@ double Battery::*battery_field(const std::string& key) {
   return key == "max_charge_current_A" ? &Battery::max_charge_current_A : nullptr;
 }
 
+/// A limit of rows by payload is raised in each that is below.
 void set_limit(Robot& robot, const Limit& row, double value) {
   if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
+  for (PayloadLimits& loaded : robot.limits_by_payload)
+    if (const auto at = loaded.limit_by_key.find(std::string(row.key)); at != loaded.limit_by_key.end())
+      at->second = std::max(at->second, value);
   for (const Side side : kSides)
     if (row.field == nullptr) robot.motor[side].*row.rating = value;
 }
@@ -172,6 +176,67 @@ bool take_offer(const std::string& key, double value, MissionRequest& mission, R
   else
     return false;
   return true;
+}
+
+namespace {
+
+/// Gives a mission a later time where a leg is late; false where it has no such time.
+bool take_time(const std::string& key, double value, const PlanInfeasibility& verdict,
+               MissionRequest& mission) {
+  constexpr double kSame_s = 1e-6;
+  if (mission.charging || verdict.leg >= mission.legs.size()) return false;
+  LegRequest& leg = mission.legs[verdict.leg];
+  std::optional<double>& of_mission = mission.objective.deadline_s;
+  const bool whole = of_mission && std::abs(value - verdict.reason.amount - *of_mission) < kSame_s;
+  std::optional<double>& time = key == "duration_s" ? leg.duration_s : whole ? of_mission : leg.deadline_s;
+  if (!time || !(key == "duration_s" || key == "deadline_s")) return false;
+  time = value;
+  return true;
+}
+
+/// Whether an offer changes a limit or a time and can be taken.
+bool take_limit_or_time(const std::string& key, double value, const PlanInfeasibility& verdict,
+                        MissionRequest& mission, Robot& robot) {
+  const auto row = std::find_if(std::begin(kLimits), std::end(kLimits),
+                                [&](const Limit& limit) { return limit.key == key; });
+  if (row == std::end(kLimits)) return take_time(key, value, verdict, mission);
+  if (!row->in_limits || row->name == "battery_power") return false;
+  return take_offer(key, value, mission, robot);
+}
+
+/// A value with which a mission is planned, from the one that its verdict offers; nothing where none is
+/// found.
+std::optional<double> proven(const std::string& key, double value, const PlanInfeasibility& verdict,
+                             const MissionRequest& mission, const Robot& robot, const PlanWith& plan_with) {
+  constexpr int kTrials = 5;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    MissionRequest changed = mission;
+    Robot other = robot;
+    if (!take_limit_or_time(key, value, verdict, changed, other)) return value;
+    const Plan plan = plan_with(changed, other);
+    if (!plan.infeasibility) return is_driven(plan) ? std::optional(value) : std::nullopt;
+    const auto& more = plan.infeasibility->reason.relaxation;
+    const auto at = more.find(key);
+    const bool same_time = key.ends_with("_s") && plan.infeasibility->leg != verdict.leg;
+    if (at == more.end() || same_time || !(at->second > value)) return std::nullopt;
+    value = at->second;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void prove_offers(Plan& plan, const MissionRequest& mission, const Robot& robot, const PlanWith& plan_with) {
+  if (!plan.infeasibility) return;
+  Infeasibility& reason = plan.infeasibility->reason;
+  const std::string told = offers_text(reason, mission);
+  const PlanInfeasibility verdict = *plan.infeasibility;
+  for (const auto& [key, value] : verdict.reason.relaxation)
+    if (const auto enough = proven(key, value, verdict, mission, robot, plan_with))
+      reason.relaxation[key] = *enough;
+    else
+      reason.relaxation.erase(key);
+  tell_anew(plan, told, offers_text(reason, mission));
 }
 
 }  // namespace joulepath

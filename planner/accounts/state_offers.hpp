@@ -30,6 +30,13 @@ using PlansMission = std::function<bool(const MissionRequest&)>;
 /// with which the mission was planned: to 10 %, and in steps of 5 %. `mission` is the one that was asked for.
 void offer_cooling(Plan& plan, const MissionRequest& mission, const PlansMission& plans);
 
+/// Plans a mission with a robot.
+using PlanWith = std::function<Plan(const MissionRequest&, const Robot&)>;
+
+/// Plans what the verdict of one place offers for a limit or a time. Where another place refuses that plan,
+/// it offers what is enough there; an offer that leads to no plan is withdrawn.
+void prove_offers(Plan& plan, const MissionRequest& mission, const Robot& robot, const PlanWith& plan_with);
+
 /// What the message of a verdict tells of its offers.
 [[nodiscard]] std::string offers_text(const Infeasibility& verdict, const MissionRequest& mission);
 

@@ -480,6 +480,15 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     }
   };
   const auto plans_by = [&](const Robot& robot) { return plans(asked, robot); };
+  prove_offers(answer, asked, world.robot, [&](const MissionRequest& mission, const Robot& robot) {
+    MissionWorld other = world;
+    other.robot = robot;
+    try {
+      return plan_once(mission, other, options, space);
+    } catch (const ConfigError&) {
+      return Plan{.status = SolveStatus::failed};
+    }
+  });
   offer_charge(answer, world.robot, start_fraction, [&](double fraction) {
     MissionRequest fuller = asked;
     fuller.start.battery_fraction = fraction;

@@ -226,6 +226,21 @@ TEST(Ways, ARobotThatCannotTurnInPlaceDrivesArcs) {
   }
 }
 
+/// A verdict is of one place; what it offers is enough for the whole mission, or is not offered.
+TEST(Ways, WhatAVerdictOffersIsEnoughForTheMission) {
+  Robot robot = testing::nomad();
+  for (const Side side : kSides) robot.motor[side].max_current_A = 0.5;
+  robot.effects = {{.name = "floor_slope", .parameters = {{"grade", 0.08}, {"uphill_direction_rad", 1.2}}}};
+  MissionRequest mission = round_of_three();
+  mission.legs.back().payload = {10, 10};
+  const Plan refused = plan_of(mission, kCoarse, robot);
+  ASSERT_TRUE(refused.infeasibility);
+  const auto& offers = refused.infeasibility->reason.relaxation;
+  ASSERT_TRUE(offers.contains("max_current_A")) << refused.message;
+  for (const Side side : kSides) robot.motor[side].max_current_A = offers.at("max_current_A");
+  EXPECT_TRUE(is_driven(plan_of(mission, kCoarse, robot)));
+}
+
 TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   const Robot robot = testing::nomad();
   const Plant plant = make_plant(robot);
