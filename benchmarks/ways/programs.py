@@ -10,6 +10,7 @@ import os
 import pathlib
 import random
 import resource
+import shutil
 import subprocess
 import sys
 
@@ -120,6 +121,7 @@ def missions(folder, legs, seed):
 
 def plan(program, folder, name, mission):
     file, out = folder / "mission.json", folder / "out"
+    shutil.rmtree(out, ignore_errors=True)  # no answer of another mission
     file.write_text(json.dumps({"schema": "joulepath/mission/1", **mission}))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     subprocess.run([program, "plan", file, "--out", out, "--force", "--solver", "fast", "--without", "baselines,path_bound", "-q"],
