@@ -403,8 +403,13 @@ Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world,
       if (price_W > 0) take(price_W);
   }
   if (trials.ends_late()) {
-    const Plan patient = plan_given_legs(without_deadlines(mission), world, options, space, plant, known);
+    MissionRequest free = without_deadlines(mission);
+    const Plan patient = plan_given_legs(free, world, options, space, plant, known);
     if (is_driven(patient) && middle_price_W(patient) > 0) take(middle_price_W(patient));
+    free.objective.minimize = Objective::Minimize::time;
+    const Plan hasty = plan_given_legs(free, world, options, space, plant, known);
+    for (const double haste : {kHaste, 1.0})
+      if (is_driven(hasty) && middle_price_W(hasty) > 0) take(haste * middle_price_W(hasty));
   }
   return std::move(trials).plan();
 }
@@ -460,6 +465,20 @@ Plan plan_once(const MissionRequest& asked, const MissionWorld& world, const Pla
   return answer;
 }
 
+/// Plans what a verdict offers for limits and times.
+void prove_verdict(Plan& answer, const MissionRequest& asked, const MissionWorld& world,
+                   const PlanOptions& options, const RouteSpace* space) {
+  prove_offers(answer, asked, world.robot, [&](const MissionRequest& mission, const Robot& robot) {
+    MissionWorld other = world;
+    other.robot = robot;
+    try {
+      return plan_once(mission, other, options, space);
+    } catch (const ConfigError&) {
+      return Plan{.status = SolveStatus::failed};
+    }
+  });
+}
+
 constexpr int kMostTrials = 30;  ///< plans of one verdict
 
 /// Adds to a verdict what a battery or windings of other states would do: every offer was planned.
@@ -480,15 +499,6 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
     }
   };
   const auto plans_by = [&](const Robot& robot) { return plans(asked, robot); };
-  prove_offers(answer, asked, world.robot, [&](const MissionRequest& mission, const Robot& robot) {
-    MissionWorld other = world;
-    other.robot = robot;
-    try {
-      return plan_once(mission, other, options, space);
-    } catch (const ConfigError&) {
-      return Plan{.status = SolveStatus::failed};
-    }
-  });
   offer_charge(answer, world.robot, start_fraction, [&](double fraction) {
     MissionRequest fuller = asked;
     fuller.start.battery_fraction = fraction;
@@ -527,6 +537,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
                std::max(asked.legs.size(), asked.visit.size()));
   const bool sure = asked.objective.confidence && !options.draft;
   Plan answer = sure ? confident_plan(asked, world, alone, {once, offer}) : once(asked, world, alone);
+  if (!sure && !options.draft) prove_verdict(answer, asked, world, alone, space);
   if (!sure) offer(answer, asked, world, alone);
   const Plant plant = make_plant(world.robot);
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
