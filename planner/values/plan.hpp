@@ -133,7 +133,7 @@ struct BatteryAccount {
   double charged_J{};                                  ///< at chargers on the way
   double required_capacity_Wh{};  ///< the largest energy between charges: its 95 % upper bound if the plan
                                   ///< has a sigma
-  double missions_per_charge{};  ///< infinite for a mission that draws nothing
+  double missions_per_charge{};   ///< infinite for a mission that draws nothing
   double lowest_voltage_V{};
   std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the charge falls below the reserve
   std::vector<double> fraction_after_leg{};

@@ -22,7 +22,7 @@ class Chain {
 
   /// The joint between two ways; leg 0 begins at the mission's start.
   Joint joint(std::size_t leg, const Way* before, const Way* after) const {
-    if (leg == 0) return from_start(*after);
+    if (!before) return after ? from_start(*after) : Joint{};
     const ChainLeg& earlier = request_.legs[leg - 1];
     if (earlier.goal_heading_rad || !after) {
       Joint joint = arrival(earlier, *before);
