@@ -5,6 +5,7 @@ usage: machines.py FOLDER OLD_PROGRAM NEW_PROGRAM NOTE LEGS SEED
 The Scout with one limit that binds, and the two heavier robots of scenarios/. Each drives the missions of every floor of
 programs.py once for the least energy and once for the least time.
 """
+import json
 import pathlib
 import random
 import sys
@@ -50,7 +51,7 @@ def plan(program, folder, name, mission):
         energy_J, spent_s = programs.plan(program, folder, name, mission)
     except (KeyError, FileNotFoundError):
         return None
-    return energy_J, programs.json.loads((folder / f"{name}.json").read_text())["duration_s"], spent_s
+    return energy_J, json.loads((folder / f"{name}.json").read_text())["duration_s"], spent_s
 
 
 def compare(folder, old, new, legs, seed):

@@ -148,6 +148,13 @@ double Battery::*battery_field(const std::string& key) {
   return key == "max_charge_current_A" ? &Battery::max_charge_current_A : nullptr;
 }
 
+/// Null: none.
+const Limit* limit_of_key(const std::string& key) {
+  const auto row =
+      std::find_if(kLimits.begin(), kLimits.end(), [&](const Limit& limit) { return limit.key == key; });
+  return row == kLimits.end() ? nullptr : &*row;
+}
+
 /// A limit of rows by payload is raised in each that is below.
 void set_limit(Robot& robot, const Limit& row, double value) {
   if (row.field != nullptr && robot.limits) (*robot.limits).*row.field = value;
@@ -161,9 +168,7 @@ void set_limit(Robot& robot, const Limit& row, double value) {
 }  // namespace
 
 bool take_offer(const std::string& key, double value, MissionRequest& mission, Robot& robot) {
-  const auto row = std::find_if(std::begin(kLimits), std::end(kLimits),
-                                [&](const Limit& limit) { return limit.key == key; });
-  if (row != std::end(kLimits))
+  if (const Limit* row = limit_of_key(key))
     set_limit(robot, *row, value);
   else if (key == "battery_fraction")
     mission.start.battery_fraction = value;
@@ -197,9 +202,8 @@ bool take_time(const std::string& key, double value, const PlanInfeasibility& ve
 /// Whether an offer changes a limit or a time and can be taken.
 bool take_limit_or_time(const std::string& key, double value, const PlanInfeasibility& verdict,
                         MissionRequest& mission, Robot& robot) {
-  const auto row = std::find_if(std::begin(kLimits), std::end(kLimits),
-                                [&](const Limit& limit) { return limit.key == key; });
-  if (row == std::end(kLimits)) return take_time(key, value, verdict, mission);
+  const Limit* row = limit_of_key(key);
+  if (!row) return take_time(key, value, verdict, mission);
   if (!row->in_limits || row->name == "battery_power") return false;
   return take_offer(key, value, mission, robot);
 }

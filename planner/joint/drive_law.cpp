@@ -74,7 +74,7 @@ double most_within(const WheelForm& form, const Limits& most) {
 }
 
 std::vector<WheelLimit> wheel_limits(const Plant& plant, const Limits& limits, double payload_kg,
-                                     const Probe& at) {
+                                     const Probe& at, const Sided<WheelLaw>& wheel) {
   const Robot& robot = plant.robot;
   const double load_N = 0.5 * robot.total_mass_kg(plant.payload_kg(payload_kg)) * kGravity_m_s2;
   std::vector<WheelLimit> all;
@@ -84,11 +84,11 @@ std::vector<WheelLimit> wheel_limits(const Plant& plant, const Limits& limits, d
     };
     const Motor& motor = robot.motor[side];
     const double radius_m = robot.geometry.wheel_radius_m[side];
-    add(motor.max_current_A, form_of(at, side, [](const auto& wheel) { return wheel.current_A; }));
+    add(motor.max_current_A, wheel[side].current_A);
     add(std::min(motor.max_voltage_V, limits.battery_voltage_V),
-        form_of(at, side, [](const auto& wheel) { return wheel.voltage_V; }));
+        form_of(at, side, [](const auto& state) { return state.voltage_V; }));
     add(limits.traction_coefficient * load_N,
-        form_of(at, side, [](const auto& wheel) { return wheel.contact_force_N; }));
+        form_of(at, side, [](const auto& state) { return state.contact_force_N; }));
     add(limits.wheel_acceleration_rad_s2,
         {.acceleration = 1 / radius_m,
          .yaw_acceleration = side_sign(side) * robot.geometry.half_track_m / radius_m});
@@ -122,13 +122,14 @@ DriveLaw drive_law(const Plant& plant, const Limits& limits, double payload_kg, 
                    double price_W, int direction) {
   const Probe at(plant, payload_kg, place, direction);
   const PowerSupply& power = plant.robot.power;
-  return {.wheel = {wheel_law(at, Side::left), wheel_law(at, Side::right)},
+  const Sided<WheelLaw> wheel{wheel_law(at, Side::left), wheel_law(at, Side::right)};
+  return {.wheel = wheel,
           .limits = limits,
           .half_track_m = plant.robot.geometry.half_track_m,
           .price_W = price_W + power.standby_W,
           .efficiency = std::min(kMostEfficiency, power.regeneration_efficiency),
           .shared_bus = power.sharing == PowerSharing::bus,
-          .wheel_limits = wheel_limits(plant, limits, payload_kg, at),
+          .wheel_limits = wheel_limits(plant, limits, payload_kg, at, wheel),
           .power_limits = power_limits(power, limits)};
 }
 

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kPhi_rad = 0.3, kLength_m = 0.8, kPayload_kg = 3;
 
-/// One piece of constant curvature in two parts of the speed, between rests.
+/// One piece of constant curvature in three parts of the speed, between rests.
 Program arc_of(const DriveLaw& law) {
   Program program;
   program.pieces = {{0, 1, 1, 0, 0, true, 3}};
@@ -41,7 +41,7 @@ DriveLaw loaded_law(const Robot& robot) {
   return drive_law(make_nominal_plant(robot), limits_for_payload(robot, kPayload_kg), kPayload_kg, {}, 0);
 }
 
-/// Of the middle part's ends, where rate u and its gain are known: the model's use of a limit.
+/// The model's largest use of a limit at the ends of the arc's parts.
 double model_use(const Robot& robot, const Limit& limit) {
   const Plant plant = make_nominal_plant(robot);
   const double A = std::cos(kPhi_rad), W = std::sin(kPhi_rad) / robot.geometry.half_track_m;

@@ -39,7 +39,9 @@ export function tiles() {
     price.more.textContent = prices.length ? "energy that one more second saves" : "no deadline is active";
     const end = plan.battery && plan.battery.end_fraction;
     battery.value.textContent = fraction(end, 4);
-    battery.more.textContent = plan.battery ? `${short(Math.floor(plan.battery.missions_per_charge), 7)} missions per charge` : "no capacity in the robot file";
+    const missions = plan.battery && plan.battery.missions_per_charge;
+    battery.more.textContent = !plan.battery ? "no capacity in the robot file"
+      : missions === null ? "the mission draws nothing" : `${short(Math.floor(missions), 7)} missions per charge`;
     gap.value.textContent = draft ? "–" : with_unit(plan.optimality_gap_percent, "%", 2);
     gap.more.textContent = draft ? `drafts have no bound${plan.bound_without_jerk ? " and no jerk limit" : ""}` : `bound${plan.bound_without_jerk ? " without jerk" : ""} ${with_unit(plan.lower_bound_J, "J", 6)}`;
   };
