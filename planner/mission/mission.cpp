@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <functional>
 
 #include "model/assert.hpp"
@@ -16,6 +15,7 @@
 #include "planner/bound/path_bound.hpp"
 #include "planner/confidence/confident_plan.hpp"
 #include "planner/legs/prescribed_leg.hpp"
+#include "planner/mission/best_ways.hpp"
 #include "planner/mission/charging.hpp"
 #include "planner/mission/drift.hpp"
 #include "planner/mission/mission_time.hpp"
@@ -91,15 +91,6 @@ void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
   leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
 }
 
-/// True if prices changed so much that another way may be better.
-bool moved(const std::vector<double>& before_W, const std::vector<double>& after_W) {
-  for (std::size_t k = 0; k < before_W.size(); ++k)
-    if (before_W[k] != after_W[k] &&
-        !(std::abs(before_W[k] - after_W[k]) < 0.1 + 0.02 * std::abs(after_W[k])))
-      return true;
-  return false;
-}
-
 /// Legs whose ways were chosen at the prices of their times; where there are none, the plan is the verdict.
 struct TimedLegs {
   PreparedLegs prepared{};
@@ -137,7 +128,7 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
   for (int round = 0; space && !way_price_W && round < kRounds; ++round) {
     expect_steps(mission.legs.size());
     if (!choose(true) || !share(true)) return timed;
-    const bool converged = !moved(price_W, timed.split.price_W);
+    const bool converged = !prices_moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
     if (converged) break;
   }
@@ -182,9 +173,6 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   }
   return std::nullopt;
 }
-
-/// Whether a leg's way is searched.
-bool searches(const LegRequest& leg) { return !leg.path && !leg.motion; }
 
 bool has_own_duration(const MissionRequest& mission) {
   return std::any_of(mission.legs.begin(), mission.legs.end(),
@@ -279,146 +267,17 @@ const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* sp
                      .hint = {}});
 }
 
-}  // namespace
-
-std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world) {
-  if (!world.map) return std::nullopt;
-  return RouteSpace(*world.map, world.keepout ? &*world.keepout : nullptr, world.robot.footprint,
-                    mission.clearance_m);
-}
-
-namespace {
-
-bool minimizes_time(const MissionRequest& mission) {
-  return mission.objective.minimize == Objective::Minimize::time;
-}
-
-/// Prices of time of the legs whose ways are searched.
-std::vector<double> searched_prices_W(const Plan& plan, const MissionRequest& mission) {
-  std::vector<double> price_W;
-  for (std::size_t k = 0; k < plan.legs.size(); ++k)
-    if (searches(mission.legs[k]))
-      price_W.push_back(plan.legs[k].in_least_time ? kNoLimit : plan.legs[k].price_of_time_W);
-  return price_W;
-}
-
-/// Whether the searched legs of a plan pay the price at which their ways were chosen.
-bool pays(const Plan& plan, const MissionRequest& mission, double way_price_W) {
-  if (minimizes_time(mission)) return true;
-  const std::vector<double> price_W = searched_prices_W(plan, mission);
-  return !moved(std::vector<double>(price_W.size(), way_price_W), price_W);
-}
-
-/// The best of several plans of one mission. A trial that the mission's keys refuse does not count beside
-/// one that is planned.
-class BestPlan {
- public:
-  explicit BestPlan(const Objective& objective) : floor_W_(lowest_price_W(objective)) {}
-
-  template <class PlanIt>
-  void take(PlanIt&& plan_it) {
-    try {
-      Plan other = plan_it();
-      if (!best_ || is_better(other)) best_ = std::move(other);
-    } catch (const ConfigError&) {
-      if (!refused_) refused_ = std::current_exception();
-    }
-  }
-
-  const std::optional<Plan>& best() const { return best_; }
-  bool ends_late() const { return best_ && best_->infeasibility && is_late(best_->infeasibility->reason); }
-
-  Plan plan() && {
-    if (!best_) std::rethrow_exception(refused_);
-    return *std::move(best_);
-  }
-
- private:
-  /// Of two drives the cheaper one; of two verdicts one that is not late, then the one that misses the same
-  /// limit by less, then the first one.
-  bool is_better(const Plan& other) const {
-    if (is_driven(other)) return !is_driven(*best_) || cost(other) < cost(*best_);
-    if (is_driven(*best_) || !other.infeasibility) return false;
-    if (!best_->infeasibility) return true;
-    const Infeasibility &before = best_->infeasibility->reason, &after = other.infeasibility->reason;
-    if (is_late(before) != is_late(after)) return is_late(before);
-    return (is_late(after) || after.constraint == before.constraint) && after.amount < before.amount;
-  }
-  double cost(const Plan& plan) const {
-    return std::isinf(floor_W_) ? plan.duration_s : plan.energy.total_J() + floor_W_ * plan.duration_s;
-  }
-
-  double floor_W_;
-  std::optional<Plan> best_{};
-  std::exception_ptr refused_{};
-};
-
-MissionRequest without_deadlines(MissionRequest mission) {
-  mission.objective = {.minimize = Objective::Minimize::energy};
-  for (LegRequest& leg : mission.legs) leg.deadline_s.reset();
-  return mission;
-}
-
-constexpr double kHaste = 10;  ///< between prices of time
-
-/// Plans legs that are given on the ways of the mission without its times, which a deadline that does not
-/// bind leaves as they are. Where times raise or lower prices, the ways at those prices are tried, too, and
-/// the others of a front: those between least energy and least time and, at prices above, those of least
-/// time. The least time is tried on those of least energy and of less haste, too: the joint program tells
-/// small differences of time badly.
-Plan plan_on_best_ways(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
-                       const RouteSpace* space, const Plant& plant, const Plan& known) {
-  BestPlan trials(mission.objective);
-  const auto take = [&](std::optional<double> way_price_W) {
-    trials.take([&] { return plan_given_legs(mission, world, options, space, plant, known, way_price_W); });
-  };
-  const double first_W = first_price_W(mission, world, plant);
-  take(first_W);
-  if (space == nullptr || std::none_of(mission.legs.begin(), mission.legs.end(), searches))
-    return std::move(trials).plan();
-  const bool binds = !trials.best() || trials.ends_late() || !pays(*trials.best(), mission, first_W);
-  if (binds) {
-    take({});
-    const bool driven = trials.best() && is_driven(*trials.best());
-    const double middle_W = driven ? middle_price_W(*trials.best()) : 0;
-    if (middle_W > 0) take(middle_W);
-    const auto is_high = [&](double price_W) { return price_W > middle_W; };
-    const std::vector<double> price_W =
-        driven ? searched_prices_W(*trials.best(), mission) : std::vector<double>{};
-    const bool hurries = trials.ends_late() || std::any_of(price_W.begin(), price_W.end(), is_high);
-    if (!minimizes_time(mission) && hurries) take(kNoLimit);
-  }
-  if (minimizes_time(mission) || trials.ends_late()) {
-    MissionRequest cheapest = mission;
-    cheapest.objective.minimize = Objective::Minimize::energy;
-    if (const double price_W = first_price_W(cheapest, world, plant); price_W != first_W) take(price_W);
-  }
-  // The joint program converges worse in the greatest haste, and it knows no limit of jerk.
-  const bool jerky = world.robot.limits && std::isfinite(world.robot.limits->jerk_m_s3);
-  if ((minimizes_time(mission) || jerky) && trials.best() && is_driven(*trials.best())) {
-    const double middle_W = middle_price_W(*trials.best());
-    const std::vector<double> calmer_W =
-        minimizes_time(mission) ? std::vector{kHaste * middle_W, middle_W} : std::vector{first_W / kHaste};
-    for (const double price_W : calmer_W)
-      if (price_W > 0) take(price_W);
-  }
-  if (trials.ends_late()) {
-    MissionRequest free = without_deadlines(mission);
-    const Plan patient = plan_given_legs(free, world, options, space, plant, known);
-    if (is_driven(patient) && middle_price_W(patient) > 0) take(middle_price_W(patient));
-    free.objective.minimize = Objective::Minimize::time;
-    const Plan hasty = plan_given_legs(free, world, options, space, plant, known);
-    for (const double haste : {kHaste, 1.0})
-      if (is_driven(hasty) && middle_price_W(hasty) > 0) take(haste * middle_price_W(hasty));
-  }
-  return std::move(trials).plan();
-}
-
 /// Plans legs that are given, with ways that keep a leg's own duration, and with stops at chargers.
 Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, const Plan& known) {
+  const auto plan_on = [&](const MissionRequest& legs, const PlanOptions& how) {
+    return plan_on_best_ways({.mission = legs, .world = world, .plant = plant, .searched = space != nullptr},
+                             [&](const MissionRequest& variant, std::optional<double> way_price_W) {
+                               return plan_given_legs(variant, world, how, space, plant, known, way_price_W);
+                             });
+  };
   const auto plan_legs = [&](const MissionRequest& legs) {
-    Plan chosen = plan_on_best_ways(legs, world, options, space, plant, known);
+    Plan chosen = plan_on(legs, options);
     if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
       return chosen;
     // Ways are chosen by energy. A way that cannot keep a leg's own duration is replaced by one with stops at
@@ -432,7 +291,7 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
   const auto plan_unrefined = [&](const MissionRequest& legs) {
     PlanOptions unrefined = options;
     unrefined.steps.refinement = false;
-    return plan_on_best_ways(legs, world, unrefined, space, plant, known);
+    return plan_on(legs, unrefined);
   };
   return charge_on_the_way(plan_legs(mission), mission, plant, plan_unrefined, plan_legs);
 }
@@ -519,6 +378,12 @@ void offer_what_drifts(Plan& answer, const MissionRequest& asked, const MissionW
 }
 
 }  // namespace
+
+std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world) {
+  if (!world.map) return std::nullopt;
+  return RouteSpace(*world.map, world.keepout ? &*world.keepout : nullptr, world.robot.footprint,
+                    mission.clearance_m);
+}
 
 Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
                   const RouteSpace* space) {

@@ -113,6 +113,14 @@ double latest_s(const MissionRequest& mission, std::size_t leg) {
 
 }  // namespace
 
+bool prices_moved(const std::vector<double>& before_W, const std::vector<double>& after_W) {
+  for (std::size_t k = 0; k < before_W.size(); ++k)
+    if (before_W[k] != after_W[k] &&
+        !(std::abs(before_W[k] - after_W[k]) < 0.1 + 0.02 * std::abs(after_W[k])))
+      return true;
+  return false;
+}
+
 double middle_price_W(const Plan& plan) {
   // Times the mean power of driving. Without its ways, fronts were up to 0.2 % dearer than plans.
   constexpr double kMiddle = 4;
@@ -161,6 +169,11 @@ double lowest_price_W(const Objective& objective) {
       return 0.0;
   }
   return 0.0;
+}
+
+double cost(const Plan& plan, const Objective& objective) {
+  const double floor_W = lowest_price_W(objective);
+  return std::isinf(floor_W) ? plan.duration_s : plan.energy.total_J() + floor_W * plan.duration_s;
 }
 
 TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "planner/mission/prepared_legs.hpp"
 #include "planner/mission/time_split.hpp"
@@ -11,6 +12,10 @@ namespace joulepath {
 /// The price of a second without a binding deadline (W, beyond standby); infinite for minimum time.
 [[nodiscard]] double lowest_price_W(const Objective& objective);
 
+/// What a plan costs (J) by its objective: its energy, with its time at the price of a second; its time (s)
+/// alone for minimum time.
+[[nodiscard]] double cost(const Plan& plan, const Objective& objective);
+
 /// Times of all legs: fixed durations as given, all others at equal prices within the deadlines. If windings
 /// warm up, every stretch gets the time of day at which it begins.
 [[nodiscard]] TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,
@@ -20,6 +25,9 @@ namespace joulepath {
 /// the robot nothing, so that slower would always be cheaper.
 [[nodiscard]] double first_price_W(const MissionRequest& mission, const MissionWorld& world,
                                    const Plant& plant);
+
+/// True if prices changed so much that another way may be better.
+[[nodiscard]] bool prices_moved(const std::vector<double>& before_W, const std::vector<double>& after_W);
 
 /// The price (W) at which ways lie between those of least energy and of least time.
 [[nodiscard]] double middle_price_W(const Plan& plan);
