@@ -146,8 +146,12 @@ std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& pla
   Heating heating(plant);
   for (const LegPlan& leg : plan.legs) heating.add(leg);
   WindingAccount account = std::move(heating).account();
-  for (std::size_t k = 0; k < plan.legs.size(); ++k)
-    account.price_of_heat = std::max(account.price_of_heat, plan.legs[k].state.price_of_heat);
+  for (const LegPlan& leg : plan.legs) {
+    account.price_of_heat = std::max(account.price_of_heat, leg.state.price_of_heat);
+    for (const Side side : kSides)
+      account.planned_current_A[side] =
+          std::min(account.planned_current_A[side], leg.state.planned_current_A[side]);
+  }
   return account;
 }
 

@@ -9,6 +9,7 @@
 #include "model/winding.hpp"
 #include "planner/accounts/stretch_account.hpp"
 #include "planner/accounts/winding_account.hpp"
+#include "planner/mission/mission_time.hpp"
 
 namespace joulepath {
 namespace {
@@ -77,10 +78,11 @@ std::vector<LegState> first_states(const MissionRequest& mission, const Robot& r
   return states;
 }
 
-/// Both states' hardest values; the price of heat is the first one's.
+/// Both states' hardest values; what keeps windings cool is the first one's.
 LegState harder(const LegState& a, const LegState& b) {
   LegState result = hardest({a, b});
   result.price_of_heat = a.price_of_heat;
+  result.planned_current_A = a.planned_current_A;
   return result;
 }
 
@@ -182,25 +184,32 @@ std::optional<double> above_limit_K(const Plan& plan) {
   return std::nullopt;
 }
 
-/// A price between two, of which the first is too low: where a line through both temperatures over the
-/// logarithms of the prices meets the limit, but not close to an end.
-double price_between(double bad, std::optional<double> bad_K, double good, std::optional<double> good_K) {
+/// A range of what keeps windings cool: a price of heat, or how far below their limits currents stay.
+struct Cooling {
+  double least{}, most{};  ///< the least is too little
+  double step{};           ///< factor between trials from the most down, until one can be driven
+  double close{};          ///< factor between too little and enough at which the search ends
+};
+
+/// A value between two, of which the first is too little: where a line through both temperatures over the
+/// logarithms of the values meets the limit, but not close to an end.
+double value_between(double bad, std::optional<double> bad_K, double good, std::optional<double> good_K) {
   constexpr double kFromEnd = 0.1;
   const double share = bad_K && good_K && *bad_K > *good_K ? *bad_K / (*bad_K - *good_K) : 0.5;
   return bad * std::pow(good / bad, std::clamp(share, kFromEnd, 1 - kFromEnd));
 }
 
-/// The least price of heat, to kClose or to kClose_K of the limit, or any price, with which a mission keeps
-/// its temperatures; nothing where no price that was tried does.
-std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, const Plan& hot, bool any_price) {
-  constexpr double kLeastPrice = 0.02, kMostPrice = 45, kFactor = 9, kClose = 1.05, kClose_K = 0.1;
-  double good = kMostPrice, bad = kLeastPrice;
+/// The plan with the least value, or within kClose_K of the limit, or with any value, with which a mission
+/// keeps its temperatures; the last one that was tried where none does.
+Plan cool_plan(const Cooling& range, const std::function<Plan(double)>& at, const Plan& hot, bool any_value) {
+  constexpr double kClose_K = 0.1;
+  double good = range.most, bad = range.least;
   Plan cool = at(good);
   for (; !is_driven(cool); cool = at(good))
-    if (is_too_hot(cool) || (good /= kFactor) < kLeastPrice) return std::nullopt;
+    if (is_too_hot(cool) || (good /= range.step) < range.least) return cool;
   std::optional<double> bad_K = above_limit_K(hot), good_K = above_limit_K(cool);
-  while (!any_price && good > kClose * bad && !(good_K && *good_K > -kClose_K)) {
-    const double middle = price_between(bad, bad_K, good, good_K);
+  while (!any_value && good > range.close * bad && !(good_K && *good_K > -kClose_K)) {
+    const double middle = value_between(bad, bad_K, good, good_K);
     Plan between = at(middle);
     const std::optional<double> between_K = above_limit_K(between);
     if (is_driven(between))
@@ -211,21 +220,85 @@ std::optional<Plan> cool_plan(const std::function<Plan(double)>& at, const Plan&
   return cool;
 }
 
+/// The current (A) that a hot winding bears for any time: rise = R_th R (1 + alpha rise) i^2.
+double continuous_current_A(const Motor& motor) {
+  if (!motor.thermal) return kNoLimit;
+  const double rise_K = motor.thermal->max_winding_C - motor.thermal->ambient_C;
+  const double hot_ohm = motor.resistance_ohm * copper_factor(*motor.thermal, rise_K);
+  return std::sqrt(rise_K / (motor.thermal->resistance_K_W * hot_ohm));
+}
+
+/// The greatest current of a motor over the one that it bears for any time.
+double overload(const Motor& motor) {
+  return std::min(motor.max_current_A, motor.max_voltage_V / motor.resistance_ohm) /
+         continuous_current_A(motor);
+}
+
+/// Keeps the temperatures of a mission by what its legs are planned with.
+class CoolMission {
+ public:
+  CoolMission(const Robot& robot, const PlanInStates& plan_in, std::vector<LegState> states)
+      : robot_(robot), plan_in_(plan_in), states_(std::move(states)) {}
+
+  /// By a price of copper loss, which spreads the heat over a mission.
+  Plan by_price(const Plan& hot, bool any_value) const {
+    constexpr Cooling kPrices{.least = 0.02, .most = 45, .step = 9, .close = 1.05};
+    return cool_plan(kPrices, planner([](LegState& state, double price) { state.price_of_heat = price; }),
+                     hot, any_value);
+  }
+
+  /// By currents between those that the motors bear for any time and their limits, which lowers the peaks of
+  /// windings that heat up within a leg.
+  Plan by_current(const Plan& hot, bool any_value) const {
+    const double most =
+        std::min(kMostOverload, std::max(overload(robot_.motor.left), overload(robot_.motor.right)));
+    if (!(most > 1)) return hot;
+    const Cooling currents{.least = 1 / most, .most = 1, .step = 2, .close = 1.01};
+    const auto limit = [&](LegState& state, double share) {
+      for (const Side side : kSides)
+        state.planned_current_A[side] = continuous_current_A(robot_.motor[side]) / share;
+    };
+    return cool_plan(currents, planner(limit), hot, any_value);
+  }
+
+ private:
+  static constexpr double kMostOverload = 30;
+
+  std::function<Plan(double)> planner(std::function<void(LegState&, double)> set) const {
+    return [this, set = std::move(set), warm = states_](double value) mutable {
+      for (LegState& state : warm) set(state, value);
+      SettledPlan settled = settled_from(std::move(warm), robot_, plan_in_);
+      warm = std::move(settled.states);
+      return std::move(settled.plan);
+    };
+  }
+
+  const Robot& robot_;
+  const PlanInStates& plan_in_;
+  std::vector<LegState> states_;
+};
+
+/// The cheaper one of a plan's coolings; the plan itself where there is none. Without time to spare, which
+/// any price of heat takes, lower currents do not help either.
+Plan cooled(Plan hot, const Objective& objective, bool any_value, const CoolMission& mission) {
+  const bool timed = objective.minimize == Objective::Minimize::time;
+  Plan best = timed ? hot : mission.by_price(hot, any_value);
+  if (is_driven(best) ? !any_value : is_too_hot(best)) {
+    Plan other = mission.by_current(hot, any_value);
+    if (is_driven(other) && (!is_driven(best) || cost(other, objective) < cost(best, objective)))
+      best = std::move(other);
+  }
+  return is_driven(best) ? best : hot;
+}
+
 }  // namespace
 
 Plan settled_plan(const MissionRequest& mission, const Robot& robot, const PlanOptions& options,
                   const PlanInStates& plan_in) {
   SettledPlan settled = settled_from(first_states(mission, robot), robot, plan_in);
   Plan plan = std::move(settled.plan);
-  if (is_too_hot(plan) && mission.objective.minimize != Objective::Minimize::time) {
-    const auto at = [&, warm = settled.states](double price) mutable {
-      for (LegState& state : warm) state.price_of_heat = price;
-      SettledPlan priced = settled_from(std::move(warm), robot, plan_in);
-      warm = std::move(priced.states);
-      return std::move(priced.plan);
-    };
-    if (std::optional<Plan> cool = cool_plan(at, plan, options.any_price_of_heat)) plan = std::move(*cool);
-  }
+  if (is_too_hot(plan))
+    plan = cooled(plan, mission.objective, options.any_price_of_heat, {robot, plan_in, settled.states});
   bound_by(plan, settled.easiest, options.accuracy);
   return plan;
 }

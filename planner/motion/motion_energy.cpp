@@ -13,11 +13,22 @@ double drive_power_W(const PathMotion& motion, const ProfileState& state) {
 }
 
 double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k) {
+  const Plant& plant = motion.plant();
   double energy_J = 0;
   integrate_profile(motion, profile, profile.time_s[k], profile.time_s[k + 1], [&](const EnergyNode& node) {
-    energy_J += node.weight_s * drive_power_W(motion.plant(), node);
+    const auto cost_W = [&](Side side) {
+      const WheelState<double>& wheel = node.wheels[side];
+      return wheel.power_W + plant.heat_price_ohm[side] * wheel.current_A * wheel.current_A;
+    };
+    energy_J += node.weight_s * supply_power_W(plant.robot.power, {cost_W(Side::left), cost_W(Side::right)});
   });
   return energy_J;
+}
+
+double planned_energy_J(const PathMotion& motion, const Profile& profile) {
+  double sum_J = motion.plant().robot.power.standby_W * profile.duration_s();
+  for (std::size_t k = 0; k + 1 < profile.s.size(); ++k) sum_J += segment_energy_J(motion, profile, k);
+  return sum_J;
 }
 
 EnergyByCause energy_between(const PathMotion& motion, const Profile& profile, double from_s, double to_s) {

@@ -30,8 +30,12 @@ void integrate_profile(const PathMotion& motion, const Profile& profile, double 
   }
 }
 
-/// Energy (J) at the battery's terminals over segment k of a profile, without standby.
+/// Energy (J) at the battery's terminals over segment k of a profile, without standby, as a planner counts
+/// it: with what the currents cost beside it (Plant::heat_price_ohm).
 [[nodiscard]] double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k);
+
+/// The same of a whole profile, with standby.
+[[nodiscard]] double planned_energy_J(const PathMotion& motion, const Profile& profile);
 
 /// Joules by cause between two instants of a profile, waiting at its end included. Consecutive intervals add
 /// up to the whole.

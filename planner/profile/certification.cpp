@@ -20,13 +20,6 @@ void set_energy_bound(double energy_J, double gap_J, const DualGap& parts, Solve
   set_gap(energy_J, gap_J, parts, summary);
 }
 
-/// Energy (J) at the terminals, standby included.
-double energy_J(const PathMotion& motion, const Profile& profile) {
-  double sum_J = motion.plant().robot.power.standby_W * profile.duration_s();
-  for (std::size_t k = 0; k + 1 < profile.s.size(); ++k) sum_J += segment_energy_J(motion, profile, k);
-  return sum_J;
-}
-
 /// The bound (J) for exactly the requested time if a second has a negative value: near standstill the
 /// integrand is below any bound. The proof is for the least energy without a price, plus the standby of that
 /// time.
@@ -41,7 +34,7 @@ double bound_without_price_J(const nlp::Problem& problem, const PathMotion& moti
   const CostModel model(*free.request, motion);
   const DualGap gap = dual_gap(model, costate_of(free, cheapest, profile, model), profile);
   const double standby_W = motion.plant().robot.power.standby_W, duration_s = profile.duration_s();
-  return energy_J(motion, profile) - gap.total() + standby_W * (problem.duration_s - duration_s);
+  return planned_energy_J(motion, profile) - gap.total() + standby_W * (problem.duration_s - duration_s);
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
     gap = duration_s - summary.lower_bound_s;
   } else {
     const double price_W = request.time.mode == TimeMode::time_price ? request.time.price_W : 0.0;
-    value = energy_by_cause(path_motion(request), profile).total_J();
+    value = planned_energy_J(path_motion(request), profile);
     gap = value - bound.summary.lower_bound_J + price_W * (duration_s - bound.profile->duration_s());
     summary.lower_bound_J = value - gap;
   }

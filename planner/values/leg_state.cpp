@@ -1,5 +1,6 @@
 #include "planner/values/leg_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -37,8 +38,11 @@ std::array<double, 10> drifting_constants(const Plant& plant) {
 
 Plant priced_plant_in(Plant plant, const LegState& state) {
   plant = plant_in(std::move(plant), state);
-  for (const Side side : kSides)
-    plant.heat_price_ohm[side] = state.price_of_heat * plant.robot.motor[side].resistance_ohm;
+  for (const Side side : kSides) {
+    Motor& motor = plant.robot.motor[side];
+    plant.heat_price_ohm[side] = state.price_of_heat * motor.resistance_ohm;
+    motor.max_current_A = std::min(motor.max_current_A, state.planned_current_A[side]);
+  }
   return plant;
 }
 

@@ -12,6 +12,7 @@ struct LegState {
   double open_circuit_voltage_V{kNoLimit};    ///< finite where the battery has a curve: the least on the leg
   Sided<double> resistance_factor{1.0, 1.0};  ///< of the copper, where the motors state `thermal`
   double price_of_heat{};  ///< what a joule of copper loss costs the planner beside itself, J/J
+  Sided<double> planned_current_A{kNoLimit, kNoLimit};  ///< at most, where windings would become too hot
 
   bool operator==(const LegState&) const = default;
 };
@@ -27,7 +28,7 @@ struct LegState {
 /// margin of confidence: what of a plant is part of a cached question.
 [[nodiscard]] std::array<double, 10> drifting_constants(const Plant& plant);
 
-/// The plant with which a leg is planned, with its price of heat.
+/// The plant with which a leg is planned, with its price of heat and its planned currents.
 [[nodiscard]] Plant priced_plant_in(Plant plant, const LegState& state);
 
 }  // namespace joulepath

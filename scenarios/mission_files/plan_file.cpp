@@ -195,14 +195,19 @@ Json list_of_states(const Plan& plan, Value&& value) {
 
 Json winding_json(const Plan& plan) {
   const WindingAccount& winding = *plan.winding;
-  return {{"highest_C", winding.highest_C},
-          {"side", side_name(winding.side)},
-          {"above_limit_K", winding.above_limit_K},
-          {"price_of_heat", winding.price_of_heat},
-          {"highest_on_leg_C", sided_list_json(winding.hottest_on_leg_C)},
-          {"after_leg_C", sided_list_json(winding.after_leg_C)},
-          {"resistance_factor_on_leg",
-           list_of_states(plan, [](const LegState& state) { return sided_json(state.resistance_factor); })}};
+  Json json{{"highest_C", winding.highest_C},
+            {"side", side_name(winding.side)},
+            {"above_limit_K", winding.above_limit_K},
+            {"price_of_heat", winding.price_of_heat},
+            {"highest_on_leg_C", sided_list_json(winding.hottest_on_leg_C)},
+            {"after_leg_C", sided_list_json(winding.after_leg_C)},
+            {"resistance_factor_on_leg", list_of_states(plan, [](const LegState& state) {
+               return sided_json(state.resistance_factor);
+             })}};
+  const Sided<double>& planned_A = winding.planned_current_A;
+  if (std::isfinite(planned_A.left) && std::isfinite(planned_A.right))
+    json["planned_current_A"] = sided_json(planned_A);
+  return json;
 }
 
 Json confidence_json(const Plan& plan) {

@@ -112,6 +112,8 @@ Schema winding_result_schema() {
                    required("price_of_heat", result(),
                             "joules that a joule of copper loss counted beside itself, so that the limit is "
                             "kept"),
+                   optional("planned_current_A", sides,
+                            "the greatest currents of the plan, where it keeps the limit by them"),
                    required("highest_on_leg_C", list(sides)), required("after_leg_C", list(sides)),
                    required("resistance_factor_on_leg", list(sides),
                             "of the copper relative to the cold one, with which the leg was planned")}));

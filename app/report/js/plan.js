@@ -176,7 +176,7 @@ jp.winding_section = function (plan) {
   if (!winding || !is_number(winding.highest_C)) return null;
   const both = (list, leg) => [{n: number(list[leg].left, 4)}, {n: number(list[leg].right, 4)}];
   return jp.section("Windings",
-    h("p", {}, `Up to ${with_unit(winding.highest_C, "°C")} (${winding.side}), ${with_unit(-winding.above_limit_K, "K", 3)} below the limit.` + (winding.price_of_heat > 0 ? ` The plan is slower for it: a joule of copper loss counts ${number(1 + winding.price_of_heat, 3)} times.` : "")),
+    h("p", {}, `Up to ${with_unit(winding.highest_C, "°C")} (${winding.side}), ${with_unit(-winding.above_limit_K, "K", 3)} below the limit.` + (winding.price_of_heat > 0 ? ` The plan is slower for it: a joule of copper loss counts ${number(1 + winding.price_of_heat, 3)} times.` : "") + (winding.planned_current_A ? ` The plan is slower for it: at most ${with_unit(winding.planned_current_A.left, "A", 4)} left and ${with_unit(winding.planned_current_A.right, "A", 4)} right.` : "")),
     jp.table(["leg", {n: "hottest left °C"}, {n: "right"}, {n: "after the stop left °C"}, {n: "right"}],
       (plan.legs || []).map((leg, k) => [jp.leg_name(leg, k), ...both(winding.highest_on_leg_C, k), ...both(winding.after_leg_C, k)])));
 };

@@ -59,6 +59,32 @@ TEST(Bound, IsBelowEveryFineProfileThatKeepsTheLimits) {
 }
 
 /// Of a gap of 10 J a tenth or more belongs to profiles that are not near the one found.
+/// Copper loss at a price of p joules beside itself is the copper loss of 1 + p times the resistance, where
+/// no voltage binds: the same profile, bound and grid.
+TEST(Bound, APriceOfHeatIsThatOfMoreResistance) {
+  constexpr double kPrice = 20;
+  for (const double jerk_m_s3 : {kNoLimit, 0.8}) {
+    ProfileRequest priced{.piece = straight_piece({}, 6),
+                          .plant = make_plant(testing::nomad()),
+                          .limits = {.speed_m_s = 0.8, .acceleration_m_s2 = 0.5, .deceleration_m_s2 = 0.5},
+                          .solver = SolverChoice::fast};
+    priced.limits.jerk_m_s3 = jerk_m_s3;
+    for (const Side side : kSides) priced.plant.robot.motor[side].max_voltage_V = kNoLimit;
+    ProfileRequest resistive = priced;
+    for (const Side side : kSides) {
+      const double resistance_ohm = priced.plant.robot.motor[side].resistance_ohm;
+      priced.plant.heat_price_ohm[side] = kPrice * resistance_ohm;
+      resistive.plant.robot.motor[side].resistance_ohm = (1 + kPrice) * resistance_ohm;
+    }
+    const ProfileResult a = solve_profile(priced), b = solve_profile(resistive);
+    ASSERT_TRUE(a.profile && b.profile) << a.summary.message << b.summary.message;
+    EXPECT_NEAR(a.profile->duration_s(), b.profile->duration_s(), 1e-6 * b.profile->duration_s());
+    EXPECT_NEAR(a.summary.lower_bound_J, b.summary.lower_bound_J, 1e-6 * b.summary.lower_bound_J);
+    EXPECT_NEAR(a.summary.gap_percent, b.summary.gap_percent, 1e-4);
+    EXPECT_EQ(a.summary.nodes, b.summary.nodes);
+  }
+}
+
 TEST(Bound, IsLocalWhereALargeShareOfTheGapLiesElsewhere) {
   for (const double elsewhere_J : {0.0, 0.5, 2.0, 20.0}) {
     const DualGap gap{.of_segment = {6, 3}, .at_nodes = 1, .elsewhere = elsewhere_J};
