@@ -56,6 +56,13 @@ std::vector<std::string> hidden_without(bool Needs::*need) {
   return effects;
 }
 
+/// A constant of the robot that a pose shows: so does a yaw rate in turns, beside the other constants that it
+/// depends on.
+bool is_constant_in_a_pose(const std::string& name) {
+  const EffectInfo& info = find_effect(name)->info;
+  return info.needs.pose && info.stage == Stage::parameters;
+}
+
 std::string hidden_text(const std::vector<std::string>& effects) {
   return text_of_list(effects) + " cannot be seen";
 }
@@ -109,8 +116,11 @@ std::string needed_text() {
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
   Survey survey;
+  const Manoeuvres manoeuvres = manoeuvres_of(signals);
+  const bool shows_turns = turns(manoeuvres) && std::ranges::any_of(signals, measures_yaw_rate);
   const auto lacks = [&](const std::string& what, bool in_all_runs, bool Needs::*need) {
-    const std::vector<std::string> effects = hidden_without(need);
+    std::vector<std::string> effects = hidden_without(need);
+    if (shows_turns) std::erase_if(effects, is_constant_in_a_pose);
     survey.notes.push_back(what + ": " + hidden_text(effects));
     if (in_all_runs) survey.invisible_effects.insert(effects.begin(), effects.end());
   };
@@ -127,16 +137,15 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
   if (!has_two_payloads(signals) && std::ranges::all_of(signals, &RunSignals::payload_known))
     survey.notes.push_back(
         "one payload only: losses that grow with the load cannot be separated from constant ones");
-  const Manoeuvres share = manoeuvres_of(signals);
   std::ranges::move(motor_notes(dataset), std::back_inserter(survey.notes));
   std::ranges::move(pose_notes(dataset), std::back_inserter(survey.notes));
   if (never_moves(dataset))
     survey.notes.push_back(
         "no wheel turns in any run: only standby power and offsets can be seen; is it the log of a standing "
         "robot, or the wrong topic of the wheels?");
-  if (!turns(share)) lacks("no turns", true, &Needs::turns);
-  if (!reverses(share)) lacks("no reversing", true, &Needs::reversing);
-  if (share.still < kLeastManoeuvreShare)
+  if (!turns(manoeuvres)) lacks("no turns", true, &Needs::turns);
+  if (!reverses(manoeuvres)) lacks("no reversing", true, &Needs::reversing);
+  if (manoeuvres.still < kLeastManoeuvreShare)
     survey.notes.push_back("no standstill: sensor offsets are less visible");
   for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
     if (!note.empty()) survey.notes.push_back(note);

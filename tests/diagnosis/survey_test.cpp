@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -60,10 +61,64 @@ TEST(Survey, RunsInWhichNoWheelTurnsAreNoted) {
   EXPECT_TRUE(notes_them(dataset));
 }
 
-TEST(Survey, OneRunWithAGyroShowsTheTrackWidth) {
-  Dataset dataset = bare_day(nomad(), 0.4);
-  dataset.runs.front().log.gyro_yaw_rate_rad_s.assign(dataset.runs.front().log.size(), 0.0);
-  EXPECT_FALSE(survey_of(dataset).invisible_effects.contains("track_width_error"));
+/// Without turns it shows neither: a radius changes torques alone, as many effects do.
+TEST(Survey, OneRunWithAGyroShowsTrackWidthAndRadius) {
+  for (const double yaw_swing_rad_s : {0.0, 0.4}) {
+    Dataset dataset = bare_day(nomad(), yaw_swing_rad_s);
+    dataset.runs.front().log.gyro_yaw_rate_rad_s.assign(dataset.runs.front().log.size(), 0.0);
+    const Survey survey = survey_of(dataset);
+    for (const char* effect : {"track_width_error", "wheel_radius_error"})
+      EXPECT_EQ(survey.invisible_effects.contains(effect), yaw_swing_rad_s == 0) << effect;
+  }
+}
+
+/// The yaw rate of a gyro without a pose: larger wheels and a narrower track turn the body alike.
+Dataset day_with_a_gyro(const Robot& real, unsigned first_seed, double noise_rad_s = 0.005) {
+  Dataset dataset{.robot = nomad()};
+  for (unsigned number = 0; number < 10; ++number) {
+    const unsigned seed = first_seed + number;
+    const double speed_m_s = (number % 3 == 2 ? -1 : 1) * (0.25 + 0.1 * (number % 4));
+    const testing::MotionLaw law =
+        swinging(speed_m_s, 0.15, 0.8 + 0.1 * (number % 5), number % 4 == 3 ? 0.0 : 0.6);
+    joulepath::Run& run = dataset.runs.emplace_back(synthetic_run(real, "run_" + std::to_string(number), 15,
+                                                                  number % 2 == 0 ? 8.0 : 0.0, law,
+                                                                  {0.002, 0.005, 0.01}, seed));
+    std::mt19937_64 random(1000 + seed);
+    std::normal_distribution<double> noise(0, noise_rad_s);
+    for (double t : run.log.time_s)
+      run.log.gyro_yaw_rate_rad_s.push_back(law(t).yaw_rate_rad_s + noise(random));
+  }
+  return dataset;
+}
+
+TEST(GyroInTurns, NeverNamesTheTrackAloneForAWrongRadius) {
+  for (const double factor : {1.02, 0.98, 1.04})
+    for (const unsigned seed : {1U, 100U, 200U}) {
+      Robot real = nomad();
+      for (Side side : kSides) real.geometry.wheel_radius_m[side] *= factor;
+      const Diagnosis d = diagnose(day_with_a_gyro(real, seed), {.bootstrap = 20});
+      SCOPED_TRACE(std::to_string(factor) + ", seed " + std::to_string(seed) + ": " +
+                   verdict_name(d.verdict));
+      EXPECT_NE(d.verdict, Verdict::no_gap) << "the yaw rate is 2 % off";
+      for (const Cause& cause : d.causes) {
+        const auto& group = cause.indistinguishable_from;
+        const bool holds_radius =
+            cause.effect.name == "wheel_radius_error" || std::ranges::count(group, "wheel_radius_error") > 0;
+        EXPECT_TRUE(holds_radius) << cause.effect.name;
+      }
+    }
+}
+
+TEST(GyroInTurns, TellsATrackAsOneOrInAGroup) {
+  for (const unsigned seed : {1U, 100U}) {
+    Robot real = nomad();
+    real.geometry.half_track_m *= 0.96;
+    const Diagnosis d = diagnose(day_with_a_gyro(real, seed), {.bootstrap = 20});
+    ASSERT_EQ(d.causes.size(), 1U) << verdict_name(d.verdict);
+    EXPECT_TRUE(d.causes.front().effect.name == "track_width_error" ||
+                std::ranges::count(d.causes.front().indistinguishable_from, "track_width_error") > 0)
+        << d.causes.front().effect.name;
+  }
 }
 
 /// A track that is 40 % narrower changes the torques in turns, and no log here can tell it from other causes.
