@@ -21,6 +21,7 @@
 #include "diagnosis/simulator/simulated_runs.hpp"
 #include "diagnosis/where/localize.hpp"
 #include "model/effects/catalog.hpp"
+#include "model/effects/effect_label.hpp"
 #include "model/progress.hpp"
 
 namespace joulepath {
@@ -86,6 +87,17 @@ std::vector<SmallEffect> below_materiality(const Examination& x, const Names& na
   return small;
 }
 
+/// Labels of what is named, with what it is not told from, and of what is listed as too small to count.
+std::set<std::string> found_effects(const Diagnosis& d) {
+  std::set<std::string> found;
+  for (const Cause& cause : d.causes) {
+    found.insert(effect_label(cause.effect));
+    found.insert(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  }
+  for (const SmallEffect& small : d.below_materiality) found.insert(small.effect);
+  return found;
+}
+
 /// Share of the unknown terms in what is explained; without a name, they are all that is.
 double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
   if (verdict == Verdict::unexplained) return 1.0;
@@ -104,8 +116,9 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
                      std::size_t bootstrap) {
   const auto& [judged, named, unknowns, depends_on, judgment_notes, sizes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
+  const std::vector<SmallEffect> small = below_materiality(x, names, validation);
   const auto [verdict, detectable_percent, hard_to_see, all_clear_note] =
-      examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
+      examine_all_clear(x, shown_verdict(judged, gap), gap.energy, small);
   gap.energy.detectable_percent = detectable_percent;
   gap.energy.hard_to_see = hard_to_see;
   const Causes causes = report_causes(x, names, validation, gap.energy);
@@ -115,7 +128,7 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
           .causes = causes.causes,
           .ranking = rank_effects(names.probabilities, names.surest),
           .unknowns = unknowns,
-          .below_materiality = below_materiality(x, names, validation),
+          .below_materiality = small,
           .leftover_significant = !depends_on.empty(),
           .leftover_share = share_of(unknowns, verdict),
           .leftover_description = depends_on,
@@ -218,7 +231,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const Diagnose
   finish_steps();
   d.isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                               {id.equations.noise, id.equations.run_variance, id.dispersion},
-                              survey.invisible_effects, options.without);
+                              survey.invisible_effects, options.without, found_effects(d));
   finish_steps();
   d.estimated_payload_kg = runs.diagnosis.estimated_payload_kg;
   d.missing_channels = survey.missing_channels;

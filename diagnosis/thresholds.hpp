@@ -447,6 +447,8 @@ inline constexpr double kLoading_s = 10.0;
 
 /// Of simulated gaps, that the runs must show. Declared.
 inline constexpr double kShareSeen = 0.9;
+/// A normal quantity is below its mean plus this many sigmas with that probability. Derived.
+inline constexpr double kSigmasOfShareSeen = 1.281552;
 /// Runs that would not show a greater gap are too few. Declared.
 inline constexpr double kGreatestUnseen_percent = 10.0;
 /// An all-clear names effects whose gap of this size the runs would not show. Declared.

@@ -92,13 +92,17 @@ double detectable_percent(const std::vector<DetectionPower>& effects) {
   return high;
 }
 
-/// Effects by which a gap of kNotedUnseen_percent would not be seen, however well the runs show others.
-std::vector<HardToSee> hard_to_see(const std::vector<DetectionPower>& effects) {
+/// Effects by which a gap of kNotedUnseen_percent would not be seen, however well the runs show others; not
+/// those that the runs do show.
+std::vector<HardToSee> hard_to_see(const std::vector<DetectionPower>& effects,
+                                   const std::vector<SmallEffect>& listed) {
   std::vector<HardToSee> hard;
-  for (const DetectionPower& effect : effects)
+  for (const DetectionPower& effect : effects) {
+    if (std::ranges::count(listed, effect.effect, &SmallEffect::effect) > 0) continue;
     if (const double percent = detectable_percent({effect}); percent > kNotedUnseen_percent)
       hard.push_back(
           {effect.effect, percent < kAnySize_percent ? percent : std::numeric_limits<double>::infinity()});
+  }
   return hard;
 }
 
@@ -120,7 +124,8 @@ std::string hard_words(const std::vector<HardToSee>& hard) {
 
 }  // namespace
 
-AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured) {
+AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured,
+                           const std::vector<SmallEffect>& listed) {
   if (verdict != Verdict::no_gap && verdict != Verdict::explained) return {.verdict = verdict};
   if (!energies_were_measured(x))
     return {
@@ -129,7 +134,7 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
   if (verdict != Verdict::no_gap) return {.verdict = verdict};
   const std::vector<DetectionPower> effects = detection_powers(x);
   const double percent = detectable_percent(effects);
-  const std::vector<HardToSee> hard = hard_to_see(effects);
+  const std::vector<HardToSee> hard = hard_to_see(effects, listed);
   if (percent > kGreatestUnseen_percent)
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,

@@ -19,6 +19,8 @@ struct AllClear {
   std::string note{};
 };
 
-[[nodiscard]] AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured);
+/// `listed`: effects that the runs show, too small to count.
+[[nodiscard]] AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured,
+                                         const std::vector<SmallEffect>& listed = {});
 
 }  // namespace joulepath

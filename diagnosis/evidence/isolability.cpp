@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/linear_fit.hpp"
@@ -161,16 +162,36 @@ std::vector<double> ratios_against(const Design& design, const Hypothesis& own,
   return mean;
 }
 
+double sigmas_per_amplitude(const Design& design, int column) {
+  return std::sqrt(design.problem.gram(column, column) / design.dispersion);
+}
+
 double probability_seen(const Design& design, const Hypothesis& hypothesis) {
   double sum = 0;
   const std::vector<std::vector<Truth>> parts = truths_of(design, hypothesis);
   for (const std::vector<Truth>& signs : parts) {
     const int column = signs.front().column;
-    const double sigmas_per_amplitude = std::sqrt(design.problem.gram(column, column) / design.dispersion);
-    sum += probability_taken_up(signs.front().amplitude * sigmas_per_amplitude,
-                                design.equations.prior_sd[column] * sigmas_per_amplitude);
+    const double sigmas = sigmas_per_amplitude(design, column);
+    sum += probability_taken_up(signs.front().amplitude * sigmas, design.equations.prior_sd[column] * sigmas);
   }
   return sum / static_cast<double>(parts.size());
+}
+
+/// The strength from which on an effect of typical shape would be seen, of two components in either
+/// direction; none where the catalog does not accept it.
+std::optional<Isolability::Strength> seen_from(const Design& design, const Hypothesis& hypothesis) {
+  const Candidate& candidate = design.equations.candidates[static_cast<std::size_t>(hypothesis.typical)];
+  std::vector<double> amplitude(candidate.amplitude.size(), 0.0);
+  for (int column : design.equations.columns_of_candidate(hypothesis.typical, false)) {
+    const double sigmas = sigmas_per_amplitude(design, column);
+    if (sigmas <= 0) return std::nullopt;
+    const double least = sigmas_seen(design.equations.prior_sd[column] * sigmas) / sigmas;
+    amplitude[0] = std::max(amplitude[0], least);
+  }
+  if (outside_range(candidate, amplitude, design.robot) > 1e-6 * candidate.step[0]) return std::nullopt;
+  const std::string& strength = candidate.effect().strength().name;
+  return Isolability::Strength{strength,
+                               setting_of(candidate, amplitude, design.robot).parameters.at(strength)};
 }
 
 std::vector<Hypothesis> seen_of(const Isolability& found, const std::vector<Hypothesis>& all) {
@@ -201,7 +222,8 @@ RunNoise noise_of_runs(const std::vector<RunSignals>& signals, const Robot& robo
 }
 
 Isolability isolability(const std::vector<RunSignals>& signals, const Robot& robot, const RunNoise& noise,
-                        const std::set<std::string>& invisible, const std::set<std::string>& without) {
+                        const std::set<std::string>& invisible, const std::set<std::string>& without,
+                        const std::set<std::string>& found) {
   const std::vector<Nuisance> nuisances = calibration_nuisances(robot);
   const Equations equations = build_equations(signals, robot, nuisances, nominal_state(nuisances), {},
                                               {.dictionary = false,
@@ -212,14 +234,17 @@ Isolability isolability(const std::vector<RunSignals>& signals, const Robot& rob
   const Design design{equations, without_calibration(equations, every(signals.size()), noise.dispersion),
                       robot, noise.dispersion};
   const std::vector<Hypothesis> all = hypotheses_of(equations, robot);
-  Isolability found;
+  Isolability shown;
   for (const Hypothesis& hypothesis : all) {
-    const std::string& effect = equations.candidates[static_cast<std::size_t>(hypothesis.typical)].shape.name;
-    found.effects.push_back(
-        {hypothesis.label, invisible.contains(effect) ? 0.0 : probability_seen(design, hypothesis)});
+    Isolability::Effect& effect = shown.effects.emplace_back(
+        Isolability::Effect{.effect = hypothesis.label, .is_found = found.contains(hypothesis.label)});
+    const Candidate& candidate = equations.candidates[static_cast<std::size_t>(hypothesis.typical)];
+    if (invisible.contains(candidate.shape.name)) continue;
+    effect.probability_seen = probability_seen(design, hypothesis);
+    effect.seen_from = seen_from(design, hypothesis);
   }
-  add_pairs(design, seen_of(found, all), found);
-  return found;
+  add_pairs(design, seen_of(shown, all), shown);
+  return shown;
 }
 
 Isolability isolability(const Dataset& dataset, const RunsByUse& runs) {

@@ -27,10 +27,11 @@ struct RunNoise {
 /// vary as an inexact form does, and with the calibration within its uncertainty:
 ///   D(a, b) = min_b |a - b|^2,  2 ln LR ~ N(D, 4 D)
 /// A pair has the lesser of D(a, b) and D(b, a). `invisible` effects lack a channel or a manoeuvre; effects
-/// `without` are taken out of the catalog.
+/// `without` are taken out of the catalog; a diagnosis found the effects with the labels `found`.
 [[nodiscard]] Isolability isolability(const std::vector<RunSignals>& signals, const Robot& robot,
                                       const RunNoise& noise, const std::set<std::string>& invisible,
-                                      const std::set<std::string>& without = {});
+                                      const std::set<std::string>& without = {},
+                                      const std::set<std::string>& found = {});
 
 /// The same of a dataset's diagnosis runs before a diagnosis.
 [[nodiscard]] Isolability isolability(const Dataset& dataset, const RunsByUse& runs);

@@ -11,13 +11,20 @@ inline double probability_above(double least, double expected) {
   return 0.5 * std::erfc((least - expected) / std::sqrt(2.0));
 }
 
-/// Probability that the search takes an effect up whose change of the data is `expected` sigmas. The gain in
-/// log evidence is z^2/2 with z normal about its expectation; it must exceed the cost of the effect, of its
-/// prior width (in sigmas), and `more_evidence`.
-inline double probability_taken_up(double expected, double width, double more_evidence = 0.0) {
-  const double cost = kEffectCost + 0.5 * std::log1p(width * width) + more_evidence;
-  return probability_above(std::sqrt(2 * cost), expected);
+/// From which z on the search takes an effect up: the gain in log evidence, z^2/2, must exceed the cost of
+/// the effect, of its prior width (in sigmas), and `more_evidence`.
+inline double least_sigmas(double width, double more_evidence = 0.0) {
+  return std::sqrt(2 * (kEffectCost + 0.5 * std::log1p(width * width) + more_evidence));
 }
+
+/// Probability that the search takes an effect up whose change of the data is `expected` sigmas: z is normal
+/// about its expectation.
+inline double probability_taken_up(double expected, double width, double more_evidence = 0.0) {
+  return probability_above(least_sigmas(width, more_evidence), expected);
+}
+
+/// The least expectation, in sigmas, that the search takes up in kShareSeen of cases.
+inline double sigmas_seen(double width) { return least_sigmas(width) + kSigmasOfShareSeen; }
 
 /// Probability that a likelihood ratio with the expectation D of 2 ln LR tells two effects apart, added to
 /// the 2 ln LR that other runs gave: 2 ln LR ~ N(D, 4 D).

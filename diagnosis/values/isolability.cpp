@@ -45,7 +45,7 @@ void maximal_cliques(const std::vector<std::set<std::size_t>>& neighbors, std::v
 std::vector<std::string> unseen_effects(const Isolability& isolability) {
   std::vector<std::string> labels;
   for (const Isolability::Effect& effect : isolability.effects)
-    if (effect.probability_seen < kShareSeen) labels.push_back(effect.effect);
+    if (effect.probability_seen < kShareSeen && !effect.is_found) labels.push_back(effect.effect);
   return labels;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,16 @@ namespace joulepath {
 /// whatever the cause of a gap may be. Effects have their typical sizes. Effects of a region of the floor are
 /// left out: what they look like depends on where it lies.
 struct Isolability {
+  /// Value of an effect's strength.
+  struct Strength {
+    std::string parameter{};
+    double value{};
+  };
   struct Effect {
     std::string effect{};  ///< its label, side included
     double probability_seen{};
+    std::optional<Strength> seen_from{};  ///< the least that nine in ten such datasets would show
+    bool is_found{};                      ///< these runs show it, whatever its usual size
   };
   struct Pair {
     std::string effect{};
@@ -23,7 +31,7 @@ struct Isolability {
   std::vector<Pair> pairs{};      ///< of the effects that would be seen
 };
 
-/// Effects that fewer than nine in ten such datasets would show.
+/// Effects that fewer than nine in ten such datasets would show, without those that were found.
 [[nodiscard]] std::vector<std::string> unseen_effects(const Isolability& isolability);
 
 /// The pairs that fewer than nine in ten such datasets would tell apart.

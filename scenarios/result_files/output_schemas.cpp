@@ -210,8 +210,11 @@ Schema isolability_schema() {
   return open(map(
       {required("effects",
                 list(open(map({required("effect", text()),
-                               required("probability_seen", number(kFraction), "at its usual size")})))),
-       required("not_seen", list(text()), "effects with a probability below 0.9"),
+                               required("probability_seen", number(kFraction), "at its usual size"),
+                               optional("seen_from", dictionary(result()),
+                                        "strength with a probability of 0.9; empty: none"),
+                               optional("found", boolean(), "named, in a group, or below_materiality")})))),
+       required("not_seen", list(text()), "effects with a probability below 0.9 that were not found"),
        required("not_told_apart",
                 list(open(map(
                     {required("effect", text()), required("other", text()),

@@ -207,15 +207,22 @@ std::string motion_text(const PrescribedMotion& motion) {
 Json data_checks_json(const std::vector<DataCheck>& checks) { return each_json(checks, data_check_json); }
 
 Json isolability_json(const Isolability& isolability) {
-  Json effects = Json::array(), pairs = Json::array();
-  for (const Isolability::Effect& effect : isolability.effects)
-    effects.push_back({{"effect", effect.effect}, {"probability_seen", six_digits(effect.probability_seen)}});
+  const auto effect_json = [](const Isolability::Effect& effect) {
+    Json seen_from = Json::object();
+    if (effect.seen_from) seen_from[effect.seen_from->parameter] = six_digits(effect.seen_from->value);
+    Json json{{"effect", effect.effect},
+              {"probability_seen", six_digits(effect.probability_seen)},
+              {"seen_from", seen_from}};
+    if (effect.is_found) json["found"] = true;
+    return json;
+  };
+  Json pairs = Json::array();
   for (const Isolability::Pair& pair : inseparable_pairs(isolability))
     pairs.push_back({{"effect", pair.effect},
                      {"other", pair.other},
                      {"two_ln_likelihood_ratio", six_digits(pair.likelihood_ratio)},
                      {"probability_told_apart", six_digits(pair.probability_told_apart)}});
-  return {{"effects", effects},
+  return {{"effects", each_json(isolability.effects, effect_json)},
           {"not_seen", unseen_effects(isolability)},
           {"not_told_apart", pairs},
           {"groups", inseparable_groups(isolability)}};

@@ -11,6 +11,7 @@
 #include "diagnosis/evidence/power.hpp"
 #include "diagnosis/values/constant_payload.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "model/effects/catalog.hpp"
 #include "tests/support/blind_day.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
@@ -33,6 +34,7 @@ class Day {
   }
 
   Isolability design() const { return isolability(dataset_, sort_runs(dataset_)); }
+  const Dataset& dataset() const { return dataset_; }
 
  private:
   Dataset dataset_{.robot = testing::nomad()};
@@ -103,6 +105,43 @@ TEST(Isolability, AnEffectOfAMissingChannelOrMotionIsNotSeen) {
   const Isolability straight = lanes({0, 6, 12}).design();
   for (const char* effect : {"wheel_radius_error", "supply_sag", "standby_power_error"})
     EXPECT_FALSE(is_seen(straight, effect)) << effect;
+}
+
+/// What a diagnosis found is seen, whatever its usual size: no list and no sentence says otherwise.
+TEST(Isolability, WhatWasFoundIsNotListedAsUnseen) {
+  const std::string found = "turning_scrub", other = "caster_swivel";
+  const Dataset day = lanes({0, 6, 12}).dataset();
+  const RunsByUse runs = sort_runs(day);
+  const Isolability design = isolability(runs.signals, day.robot, noise_of_runs(runs.signals, day.robot, {}),
+                                         {found, other}, {}, {found});
+  const std::vector<std::string> unseen = unseen_effects(design);
+  EXPECT_EQ(std::ranges::count(unseen, found), 0);
+  EXPECT_EQ(std::ranges::count(unseen, other), 1);
+  for (const std::string& note : isolability_notes(design))
+    EXPECT_EQ(note.find(found), std::string::npos) << note;
+  EXPECT_TRUE(std::ranges::find(design.effects, found, &Isolability::Effect::effect)->is_found);
+}
+
+/// An effect is seen at its usual size where this is no less than the one from which on it is seen.
+TEST(Isolability, SeenFromIsTheSizeOfNineInTen) {
+  Day day = lanes({0, 12});
+  for (double turn_rad_s : {0.8, -0.8}) day.drive(6, testing::swinging(0.4, 0.1, 0.5, turn_rad_s));
+  std::size_t compared = 0;
+  for (const Isolability::Effect& effect : day.design().effects) {
+    const EffectDescription* described = find_effect(effect.effect);  // none of a side
+    if (!described || described->in_robot_file || described->strength().role != ParameterRole::strength ||
+        described->find(ParameterRole::direction))
+      continue;
+    const double usual = typical_size(described->strength(), testing::nomad());
+    if (effect.probability_seen >= 0.9) {
+      ASSERT_TRUE(effect.seen_from) << effect.effect;
+      EXPECT_LE(effect.seen_from->value, usual) << effect.effect;
+      ++compared;
+    } else if (effect.seen_from) {
+      EXPECT_GT(effect.seen_from->value, usual) << effect.effect;
+    }
+  }
+  EXPECT_GT(compared, 5U);
 }
 
 TEST(Isolability, IsTheSameTwiceAndEveryPairOnce) {

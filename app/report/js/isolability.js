@@ -24,7 +24,8 @@ jp.isolability_section = function (d) {
   if (!effects.length) return null;
   const met = new Set(not_told_apart.flatMap((pair) => [pair.effect, pair.other]));
   const names = effects.map((one) => one.effect).filter((name) => met.has(name));
-  const apart = effects.length - not_seen.length - names.length;
+  const rest = new Set([...not_seen, ...names]);
+  const apart = effects.filter((one) => !rest.has(one.effect) && (!one.found || one.probability_seen >= 0.9)).length;
   return jp.section("What these runs can show",
     h("p", {class: "soft"}, "From motions, payloads, channels and noise alone, for effects of their usual size. A pair counts as told apart, and an effect as seen, where nine in ten such datasets would do so."),
     not_seen.length ? h("p", {}, "Not seen: " + not_seen.map(words).join(", ") + ".") : null,
