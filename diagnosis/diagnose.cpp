@@ -413,6 +413,7 @@ Diagnosis diagnose_simulator(Dataset dataset, const DiagnoseOptions& options) {
   d.simulator.of_runs = static_cast<std::size_t>(std::ranges::count_if(dataset.runs, has_usable_log));
   d.simulator.contents = contents.verdict;
   d.simulator.contains = contents.causes;
+  d.simulator.velocity_filter_s = contents.velocity_filter_s;
   d.simulator.is_another_robots = !contents.foreign_constants.empty();
   for (const DataCheck& check : contents.data_checks)
     d.notes.push_back("the simulator's logs: " + check.channel + " " + check.kind + ", " + check.evidence);

@@ -76,6 +76,27 @@ Forecast forecast_of(const Node& first) {
   return forecast;
 }
 
+/// Filters behind which the first diagnosis read the wheel speeds of the robot and of the simulator; 0: none.
+struct Filters {
+  double of_robot_s{}, of_simulator_s{};
+};
+
+Filters filters_of(const Node& first) {
+  const auto read = [](const Node& of) {
+    const auto filter_s = of.find("velocity_filter_s");
+    return filter_s ? filter_s->number() : 0.0;
+  };
+  return {read(first), read(first["simulator"])};
+}
+
+Dataset behind(const Filters& filters, Dataset dataset) {
+  for (Run& run : dataset.runs) {
+    run.velocity_filter_s = filters.of_robot_s;
+    run.predicted_filter_s = filters.of_simulator_s;
+  }
+  return dataset;
+}
+
 }  // namespace
 
 std::string with_compared_logs(const std::string& diagnosis_json, const Dataset& dataset) {
@@ -95,9 +116,10 @@ ChangedSimulator changed_simulator(const Dataset& dataset, const std::string& fi
     root.fail_found("no simulator", "a diagnosis of a dataset whose runs have `predicted:`");
   refuse_other_logs(dataset, root["simulator"]);
   const Forecast forecast = forecast_of(root);
+  const Filters filters = filters_of(root);
   const GapAfter after =
-      gap_after(dataset, with_predictions_in(dataset, directory, options), forecast.held_out,
-                forecast.noise_floor_percent, forecast.battery_floor_percent);
+      gap_after(behind(filters, dataset), behind(filters, with_predictions_in(dataset, directory, options)),
+                forecast.held_out, forecast.noise_floor_percent, forecast.battery_floor_percent);
   return {gap_after_json(after, forecast), after_sentence(after, forecast)};
 }
 

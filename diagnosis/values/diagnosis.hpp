@@ -143,6 +143,7 @@ struct SimulatorGap {
   double gap_percent{}, bias_percent{}, noise_floor_percent{};  ///< of the energy of the measured motion
   Verdict contents{};             ///< of its predictions alone against the robot file's model
   std::vector<Cause> contains{};  ///< effects that it has beyond the robot file
+  double velocity_filter_s{};     ///< of the filter behind which its wheel speeds are; 0: none is told
   bool is_another_robots{};       ///< the robot file does not describe what it simulates
   std::size_t by_time{}, by_command{}, by_path{};          ///< runs by what aligns them
   double motion_difference_percent{};                      ///< of the wheel speeds after that, the greatest

@@ -203,6 +203,7 @@ Schema simulator_schema() {
                 list(open(map({required("run", text()), required("content", text()),
                                required("predicted_content", text())}))),
                 "what was compared, with hashes of the content"),
+       optional("velocity_filter_s", number(), "of the filter behind which its wheel speeds are"),
        required("sentence", text())}));
 }
 

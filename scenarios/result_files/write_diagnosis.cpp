@@ -115,20 +115,22 @@ Json named_cause_json(const Cause& cause) {
 
 Json simulator_json(const Diagnosis& d) {
   const SimulatorGap& simulator = d.simulator;
-  return {{"runs", simulator.runs},
-          {"of_runs", simulator.of_runs},
-          {"gap_percent", six_digits(simulator.gap_percent)},
-          {"bias_percent", six_digits(simulator.bias_percent)},
-          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
-          {"contents_verdict", verdict_name(simulator.contents)},
-          {"contains", each_json(simulator.contains, named_cause_json)},
-          {"another_robots_file", simulator.is_another_robots},
-          {"aligned_by",
-           {{"time", simulator.by_time}, {"command", simulator.by_command}, {"path", simulator.by_path}}},
-          {"clock_offset_s", six_digits(simulator.clock_offset_s)},
-          {"motion_difference_percent", six_digits(simulator.motion_difference_percent)},
-          {"lacking_channels", simulator.lacking_channels},
-          {"sentence", simulator_words(d)}};
+  Json json{{"runs", simulator.runs},
+            {"of_runs", simulator.of_runs},
+            {"gap_percent", six_digits(simulator.gap_percent)},
+            {"bias_percent", six_digits(simulator.bias_percent)},
+            {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
+            {"contents_verdict", verdict_name(simulator.contents)},
+            {"contains", each_json(simulator.contains, named_cause_json)},
+            {"another_robots_file", simulator.is_another_robots},
+            {"aligned_by",
+             {{"time", simulator.by_time}, {"command", simulator.by_command}, {"path", simulator.by_path}}},
+            {"clock_offset_s", six_digits(simulator.clock_offset_s)},
+            {"motion_difference_percent", six_digits(simulator.motion_difference_percent)},
+            {"lacking_channels", simulator.lacking_channels},
+            {"sentence", simulator_words(d)}};
+  if (simulator.velocity_filter_s > 0) json["velocity_filter_s"] = six_digits(simulator.velocity_filter_s);
+  return json;
 }
 
 Json ranked_json(const RankedEffect& ranked) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/diagnose/diagnosis_results.hpp"
+#include "diagnosis/signals/velocity_filter.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
@@ -16,6 +17,7 @@ namespace joulepath {
 namespace {
 
 constexpr testing::LogNoise kSensorNoise{0.002, 0.005, 0.01};
+constexpr double kFilter_s = 0.1;
 
 Robot robot_with_rolling(double coefficient) {
   Robot robot = testing::nomad();
@@ -105,6 +107,49 @@ TEST_F(AfterAChange, OtherRunsAndOtherLogsAreRefused) {
                    "another content of the prediction of run_8.csv"));
   scratch_.write("run_8.csv", log_of(robot_with_rolling(0.012), 8, 77));
   EXPECT_TRUE(says(refusal("changed", dataset_), "found another content of run_8.csv"));
+}
+
+/// Eight runs whose speeds a filter smoothed before they were logged, and a simulator that is the robot but
+/// for `rolling`: before a change, and after it without that.
+ChangedSimulator behind_a_filter(const ScratchDirectory& scratch, double rolling) {
+  std::string text = "schema: joulepath/dataset/1\nrobot: robot.yaml\nruns:\n";
+  scratch.write("robot.yaml", robot_text(testing::nomad()));
+  const auto turning = [](unsigned number) {
+    return testing::swinging(0.1 * (number % 4), 0.2, 2, 0.6, 1.1 + 0.2 * (number % 3));
+  };
+  const auto drive = [&](double coefficient, unsigned number, unsigned seed) {
+    return testing::synthetic_run(robot_with_rolling(coefficient), "", 12, number % 2 == 0 ? 0 : 10,
+                                  turning(number), kSensorNoise, seed)
+        .log;
+  };
+  for (unsigned number = 1; number <= 8; ++number) {
+    Trajectory real = drive(0, number, number);
+    for (Side side : kSides)
+      real.wheel_speed_rad_s[side] =
+          behind_velocity_filter(real.wheel_speed_rad_s[side], real.time_s, kFilter_s);
+    const std::string name = "run_" + std::to_string(number) + ".csv";
+    scratch.write(name, run_log_text(real));
+    scratch.write("sim/" + name, run_log_text(drive(rolling, number, 100 + number)));
+    scratch.write("changed/" + name, run_log_text(drive(0, number, 200 + number)));
+    text += "  - {file: " + name + ", predicted: sim/" + name + "}\n";
+  }
+  const std::string dataset = scratch.write("dataset.yaml", text),
+                    json = diagnosis_results(read_dataset(dataset), {.bootstrap = 20}).json,
+                    first = scratch.write("diagnosis.json", json);
+  EXPECT_NEAR(nlohmann::json::parse(json).value("velocity_filter_s", 0.0), kFilter_s, 0.2 * kFilter_s);
+  return changed_simulator(read_dataset(dataset), first, scratch.at("changed"));
+}
+
+/// Where the simulator is exact, its gap is noise, whatever filter the robot's speeds are behind.
+TEST(AfterAChangeBehindAFilter, AnExactSimulatorHasTheGapOfNoise) {
+  for (const double rolling : {0.0, 0.012}) {
+    const ScratchDirectory scratch;
+    const auto energy = nlohmann::json::parse(behind_a_filter(scratch, rolling).json)["gap"]["energy"];
+    EXPECT_LT(energy["after_percent"], 2 * double(energy["noise_floor_percent"]) + 0.1) << energy;
+    if (rolling == 0) {
+      EXPECT_LT(energy["before_percent"], 2 * double(energy["noise_floor_percent"]) + 0.1) << energy;
+    }
+  }
 }
 
 }  // namespace
