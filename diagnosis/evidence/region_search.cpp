@@ -106,12 +106,18 @@ Rectangle search(const std::vector<PlacedSample>& samples, int first_axis) {
   return rectangle;
 }
 
-Candidate candidate_of(const EffectDescription& effect, const Rectangle& rectangle, const Robot& robot) {
+/// The effect in that region; none where the catalog accepts no place so far from the origin.
+std::optional<Candidate> candidate_of(const EffectDescription& effect, const Rectangle& rectangle,
+                                      const Robot& robot) {
   Candidate candidate = bare_candidate(effect, robot);
   const std::array edges_m{rectangle.low_m[0], rectangle.high_m[0], rectangle.low_m[1], rectangle.high_m[1]};
   std::size_t next = 0;
   for (const ParameterDescription& parameter : effect.parameters) {
-    if (parameter.role == ParameterRole::edge) candidate.shape.parameters[parameter.name] = edges_m[next++];
+    if (parameter.role == ParameterRole::edge) {
+      const double edge_m = edges_m[next++];
+      if (edge_m < parameter.min || edge_m > parameter.max) return std::nullopt;
+      candidate.shape.parameters[parameter.name] = edge_m;
+    }
     if (parameter.role == ParameterRole::shape)
       candidate.shape.parameters[parameter.name] = typical_size(parameter, robot);
   }
@@ -129,7 +135,9 @@ std::vector<Candidate> region_candidates(const std::vector<RunSignals>& signals,
     const std::vector<PlacedSample> samples = placed_samples(signals, robot, nuisances, state, effect);
     for (int axis : {0, 1}) {
       const Rectangle rectangle = search(samples, axis);
-      if (rectangle.contrast > 0) candidates.push_back(candidate_of(effect, rectangle, robot));
+      if (!(rectangle.contrast > 0)) continue;
+      if (auto candidate = candidate_of(effect, rectangle, robot))
+        candidates.push_back(*std::move(candidate));
     }
   }
   return candidates;

@@ -143,11 +143,32 @@ class Differencer {
     const ReadingPeriods& period_s = signals_.reading_period_s;
     if (key == kGyroStampNuisance)
       rows.col(kGyro) = -kReadingDelay * period_s.gyro_s * yaw_acceleration_rad_s2();
+    if (key == kPoseStampNuisance) add_late_pose(-kReadingDelay * period_s.pose_s, rows);
     if (key == kBatteryStampNuisance)
       rows.col(kDriverPower) = -kReadingDelay * period_s.battery_s * slope(base_.battery_power_W);
     if (key == kBatteryMeanNuisance)
       rows.col(kDriverPower) = std::pow(period_s.battery_s, 2) / 12 * slope(slope(base_.battery_power_W));
     return rows;
+  }
+
+  /// A pose that is late by a time (s). A late heading also turns the way of the wheels:
+  ///   d/dt (v cos h) = a cos h - v w sin h, so that x changes by the time's share of int a cos h dt.
+  void add_late_pose(double late_s, Eigen::MatrixXd& rows) const {
+    double along_x_m_s = 0, along_y_m_s = 0;
+    for (Eigen::Index j = 0; j < signals_.size(); ++j) {
+      const BodyMotion<double> motion = signals_.rolled_motion(robot_.geometry, j);
+      const double cosine = std::cos(signals_.heading_rad[j]), sine = std::sin(signals_.heading_rad[j]);
+      if (j == 0 || !signals_.heading_measured) {
+        along_x_m_s = motion.speed_m_s * cosine;
+        along_y_m_s = motion.speed_m_s * sine;
+      } else {
+        along_x_m_s += motion.acceleration_m_s2 * signals_.period_s * cosine;
+        along_y_m_s += motion.acceleration_m_s2 * signals_.period_s * sine;
+      }
+      rows(j, kHeading) = late_s * motion.yaw_rate_rad_s;
+      rows(j, kPositionX) = late_s * along_x_m_s;
+      rows(j, kPositionY) = late_s * along_y_m_s;
+    }
   }
 
   /// By the kernel's slope: differences of rows flatten steep parts.

@@ -29,9 +29,14 @@ struct Autocovariance {
   double count{};
 };
 
-Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel) {
-  Autocovariance sum;
-  Autocovariances counts{};
+/// The channels whose noise is one: that of both positions, whatever their axes are.
+std::vector<int> alike(int channel) {
+  if (channel == kPositionX || channel == kPositionY) return {kPositionX, kPositionY};
+  return {channel};
+}
+
+void add_products_over_time(const std::vector<ResidualRows>& runs, int channel, Autocovariance& sum,
+                            Autocovariances& counts) {
   for (const ResidualRows& run : runs)
     for (Eigen::Index t = 0; t < run.value.rows(); ++t)
       for (int k = 0; k <= kAutoregressionOrder && k <= t; ++k) {
@@ -39,6 +44,12 @@ Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel
         sum.lag[static_cast<std::size_t>(k)] += run.value(t, channel) * run.value(t - k, channel);
         counts[static_cast<std::size_t>(k)] += 1;
       }
+}
+
+Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel) {
+  Autocovariance sum;
+  Autocovariances counts{};
+  for (const int one : alike(channel)) add_products_over_time(runs, one, sum, counts);
   for (std::size_t k = 0; k < counts.size(); ++k)
     if (counts[k] > 0) sum.lag[k] /= counts[k];
   sum.count = counts[0];
@@ -50,12 +61,12 @@ double size_of(const Autocovariance& r, double least_sd) {
   return r.count > 0 ? std::hypot(std::sqrt(r.lag[0]), least_sd) : 1.0;
 }
 
-/// One channel of all runs that have a row of it.
+/// One channel, or both that are alike, of all runs that have a row of it.
 std::vector<ChannelOfRun> runs_with(const std::vector<ResidualRows>& runs, int channel) {
   std::vector<ChannelOfRun> list;
-  for (const ResidualRows& run : runs)
-    if (run.present.col(channel).any())
-      list.push_back({run.value.col(channel), run.present.col(channel).array()});
+  for (const int one : alike(channel))
+    for (const ResidualRows& run : runs)
+      if (run.present.col(one).any()) list.push_back({run.value.col(one), run.present.col(one).array()});
   return list;
 }
 
@@ -114,6 +125,9 @@ NoiseModel estimate_noise(const std::vector<ResidualRows>& runs,
     for (int b = 0; b <= a; ++b)
       if (count(a, b) > kLeastSamples && share_noise(a, b))
         covariance(a, b) = covariance(b, a) = sum(a, b) / count(a, b);
+  if (count(kPositionX, kPositionX) > kLeastSamples)
+    covariance(kPositionX, kPositionX) = covariance(kPositionY, kPositionY) =
+        0.5 * (covariance(kPositionX, kPositionX) + covariance(kPositionY, kPositionY));
   for (int c = 0; c < kChannelCount; ++c) {
     const auto i = static_cast<std::size_t>(c);
     covariance(c, c) += least_sd[i] * least_sd[i];

@@ -8,8 +8,8 @@
 namespace joulepath {
 namespace {
 
-constexpr std::array kClockNuisances{&kStampNuisance, &kGyroStampNuisance, &kBatteryStampNuisance,
-                                     &kBatteryMeanNuisance};
+constexpr std::array kClockNuisances{&kStampNuisance, &kGyroStampNuisance, &kPoseStampNuisance,
+                                     &kBatteryStampNuisance, &kBatteryMeanNuisance};
 
 }  // namespace
 

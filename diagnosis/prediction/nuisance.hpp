@@ -11,9 +11,11 @@ namespace joulepath {
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
 inline const std::string kHeldTurnNuisance = "held_turn";
-/// An instrument of its own is late or early by a part of its readings' period; the battery's readings are
-/// also means of another length than the motors'.
+/// An instrument of its own is late or early by a part of its readings' period, a pose also where wheel
+/// speeds are those at the stamp and not means over the sample; the battery's readings are also means of
+/// another length than the motors'.
 inline const std::string kGyroStampNuisance = "gyro_time_stamps";
+inline const std::string kPoseStampNuisance = "pose_time_stamps";
 inline const std::string kBatteryStampNuisance = "battery_time_stamps";
 inline const std::string kBatteryMeanNuisance = "battery_mean";
 

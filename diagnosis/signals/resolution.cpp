@@ -22,6 +22,10 @@ double root_mean_square(const std::vector<RunSignals>& signals, Channel&& channe
   return count > 0 ? std::sqrt(square / count) : 0.0;
 }
 
+Eigen::VectorXd since_start(const Eigen::VectorXd& channel) {
+  return channel.size() > 0 ? Eigen::VectorXd(channel.array() - channel[0]) : channel;
+}
+
 }  // namespace
 
 std::array<double, kChannelCount> resolution_floor(const std::vector<RunSignals>& signals) {
@@ -39,10 +43,11 @@ std::array<double, kChannelCount> resolution_floor(const std::vector<RunSignals>
   floor[kSupplyVoltage] =
       kVoltageResolution * rms([](const RunSignals& r) -> const auto& { return r.battery_voltage_V; });
   floor[kGyro] = kResolution * rms([](const RunSignals& r) -> const auto& { return r.gyro_yaw_rate_rad_s; });
-  floor[kHeading] = kResolution * rms([](const RunSignals& r) -> const auto& { return r.heading_rad; });
-  floor[kPositionX] = kResolution * rms([](const RunSignals& r) -> const auto& { return r.x_m; });
-  floor[kPositionY] = kResolution * rms([](const RunSignals& r) -> const auto& { return r.y_m; });
-  floor[kPositionX] = floor[kPositionY] = std::max(floor[kPositionX], floor[kPositionY]);
+  // From where each run starts: whatever the frame of a pose is.
+  floor[kHeading] = kResolution * rms([](const RunSignals& r) { return since_start(r.heading_rad); });
+  floor[kPositionX] = floor[kPositionY] =
+      kResolution * std::hypot(rms([](const RunSignals& r) { return since_start(r.x_m); }),
+                               rms([](const RunSignals& r) { return since_start(r.y_m); }));
   return floor;
 }
 

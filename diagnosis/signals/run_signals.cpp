@@ -448,8 +448,11 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
                      .period_s = thinner.period_s(),
                      .log_period_s = thinner.grid_period_s(),
                      .kernel_sigma_s = thinner.sigma_s()};
-  signals.reading_period_s = {.battery_s = reading_period_s(log.battery_current_A, signals.log_period_s),
-                              .gyro_s = reading_period_s(log.gyro_yaw_rate_rad_s, signals.log_period_s)};
+  signals.reading_period_s = {
+      .battery_s = reading_period_s(log.battery_current_A, signals.log_period_s),
+      .gyro_s = reading_period_s(log.gyro_yaw_rate_rad_s, signals.log_period_s),
+      .pose_s = reading_period_s(log.position_x_m.empty() ? log.heading_rad : log.position_x_m,
+                                 signals.log_period_s)};
 
   const Sided<Samples> logged_wheels = wheel_speeds(log, robot);
   const Sided<Samples> wheels{thinner.on_grid(logged_wheels.left), thinner.on_grid(logged_wheels.right)};

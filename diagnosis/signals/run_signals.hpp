@@ -36,7 +36,7 @@ struct SupplyAccount {
 /// Between the readings of instruments other than the motors' driver. A log repeats or interpolates the
 /// readings of a slow one.
 struct ReadingPeriods {
-  double battery_s{}, gyro_s{};
+  double battery_s{}, gyro_s{}, pose_s{};
 };
 
 /// One run, smoothed and downsampled for the diagnosis.

@@ -62,7 +62,8 @@ class Suggestion {
     if (!schema.is_object() || !schema.contains("properties") || !schema["properties"].is_object()) return;
     for (const auto& [name, value] : schema["properties"].items()) {
       const bool has_heading = name == "heading_rad" && columns_.contains("orientation_w");
-      if (name != "time_s" && !has_heading && find_log_column(name)) add(name, topic, name);
+      const LogColumn* column = find_log_column(name);  // of a run's log: others only `plan` writes
+      if (name != "time_s" && !has_heading && column && column->measured) add(name, topic, name);
     }
   }
 

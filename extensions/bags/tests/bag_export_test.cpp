@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "extensions/bags/bag_survey.hpp"
 #include "planner/path/geometry/path.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "tests/scenarios/export/continuous_plans.hpp"
 #include "tests/scenarios/export/lopsided_plan.hpp"
@@ -44,6 +46,18 @@ TEST(ExportLaws, ABagReadsBackAsThePlanAtEverySample) {
       ASSERT_NEAR(back.motor_current_A[side][k], lopsided_rows().motor_current_A[side][k], 1e-9) << k;
     }
   }
+}
+
+/// What is proposed for the program's own bag is a dataset.
+TEST(ExportLaws, TheDatasetProposedForABagReadsIt) {
+  const ScratchDirectory scratch;
+  const std::string file =
+      scratch.write("plan.mcap", export_bag(lopsided_plan().input("b.mcap")).files.at(0).content);
+  const Robot& robot = lopsided_plan().world.robot;
+  const std::string dataset = scratch.write("dataset.yaml", suggested_dataset(survey_bag(file), file));
+  const Trajectory log = dataset_from(Document::load(dataset), {}, {}, {.robot = &robot}).runs.at(0).log;
+  EXPECT_EQ(log.size(), lopsided_rows().size());
+  EXPECT_EQ(log.motor_power_W.left.size(), log.size());
 }
 
 TEST(ContinuousPlan, RowsOfABagFollowEachOther) {
