@@ -68,8 +68,7 @@ std::vector<ScrubbedDay> scrubbed_days() {
           {"bends_small", "nomad_super_scout", 1, 4, to_and_fro},
           {"bends_large", "nomad_super_scout", 2, 0, to_and_fro},
           {"long_bends", "nomad_super_scout", 1.5, 0, long_bends},
-          {"husky", "husky_a200", 1.5, 10, to_and_fro},
-          {"tug", "tug_600kg", 2, 0, to_and_fro}};
+          {"husky", "husky_a200", 1.5, 10, to_and_fro}};
 }
 
 Trajectory reference_of_parts(const std::vector<Part>& drive) {
