@@ -47,8 +47,7 @@ MissionRequest without_deadlines(MissionRequest mission) {
 /// The trials of one mission, and the best of them.
 class WayTrials {
  public:
-  WayTrials(const WaysRequest& request, const PlanOnWays& plan_it)
-      : request_(request), plan_it_(plan_it) {}
+  WayTrials(const WaysRequest& request, const PlanOnWays& plan_it) : request_(request), plan_it_(plan_it) {}
 
   Plan best() {
     const double first_W = first_price_W(mission(), request_.world, request_.plant);
@@ -82,7 +81,8 @@ class WayTrials {
   }
 
   bool is_better(const Plan& other) const {
-    if (is_driven(other)) return !is_driven(*best_) || cost(other, mission().objective) < cost(*best_, mission().objective);
+    if (is_driven(other))
+      return !is_driven(*best_) || cost(other, mission().objective) < cost(*best_, mission().objective);
     if (is_driven(*best_) || !other.infeasibility) return false;
     if (!best_->infeasibility) return true;
     const Infeasibility &before = best_->infeasibility->reason, &after = other.infeasibility->reason;
