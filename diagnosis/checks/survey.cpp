@@ -171,7 +171,7 @@ std::string short_runs_note(const Dataset& dataset) {
     runs.push_back(run.name);
     if (!longest || log_length_s(run.log) > log_length_s(*longest)) longest = &run.log;
   }
-  if (runs.empty()) return "";
+  if (!longest) return "";
   return runs_text(runs, dataset.runs.size()) + "too short, left out: " + (runs.size() > 1 ? "up to " : "") +
          length_text(*longest) + ", where the smoothing needs " + needed_text();
 }
