@@ -280,7 +280,7 @@ class CoolMission {
 
 /// The cheaper one of a plan's coolings; the plan itself where there is none. Without time to spare, which
 /// any price of heat takes, lower currents do not help either.
-Plan cooled(Plan hot, const Objective& objective, bool any_value, const CoolMission& mission) {
+Plan cooled(const Plan& hot, const Objective& objective, bool any_value, const CoolMission& mission) {
   const bool timed = objective.minimize == Objective::Minimize::time;
   Plan best = timed ? hot : mission.by_price(hot, any_value);
   if (is_driven(best) ? !any_value : is_too_hot(best)) {
