@@ -13,14 +13,9 @@ double drive_power_W(const PathMotion& motion, const ProfileState& state) {
 }
 
 double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k) {
-  const Plant& plant = motion.plant();
   double energy_J = 0;
   integrate_profile(motion, profile, profile.time_s[k], profile.time_s[k + 1], [&](const EnergyNode& node) {
-    const auto cost_W = [&](Side side) {
-      const WheelState<double>& wheel = node.wheels[side];
-      return wheel.power_W + plant.heat_price_ohm[side] * wheel.current_A * wheel.current_A;
-    };
-    energy_J += node.weight_s * supply_power_W(plant.robot.power, {cost_W(Side::left), cost_W(Side::right)});
+    energy_J += node.weight_s * planned_power_W(motion.plant(), node.wheels);
   });
   return energy_J;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/power.hpp"
 #include "model/quadrature.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/values/profile.hpp"
@@ -13,6 +14,16 @@ namespace joulepath {
 
 /// Power (W) that the drives take from the supply at a state, without standby.
 [[nodiscard]] double drive_power_W(const PathMotion& motion, const ProfileState& state);
+
+/// The same for the states of both wheels as a planner counts it: with what the currents cost beside it
+/// (Plant::heat_price_ohm).
+[[nodiscard]] inline double planned_power_W(const Plant& plant, const Sided<WheelState<double>>& wheels) {
+  const auto cost_W = [&](Side side) {
+    return wheels[side].power_W +
+           plant.heat_price_ohm[side] * wheels[side].current_A * wheels[side].current_A;
+  };
+  return supply_power_W(plant.robot.power, {cost_W(Side::left), cost_W(Side::right)});
+}
 
 /// Calls visit(node) for the nodes of the energy integral between two instants of a profile, segment by
 /// segment. Waiting at the profile's end has no nodes.
@@ -31,7 +42,7 @@ void integrate_profile(const PathMotion& motion, const Profile& profile, double 
 }
 
 /// Energy (J) at the battery's terminals over segment k of a profile, without standby, as a planner counts
-/// it: with what the currents cost beside it (Plant::heat_price_ohm).
+/// it.
 [[nodiscard]] double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k);
 
 /// The same of a whole profile, with standby.

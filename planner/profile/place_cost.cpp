@@ -7,6 +7,7 @@
 #include "model/kinematics.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/nlp/transcription/rate_cap.hpp"
 
 namespace joulepath {
@@ -161,11 +162,7 @@ double PlaceCost::at(double u, double a) const {
   const Plant& plant = model_->motion.plant();
   const Sided<WheelState<double>> wheels =
       operating_point(plant, PathMotion::body_motion(rates_, u, a), planned_);
-  const auto cost_W = [&](Side side) {
-    return wheels[side].power_W +
-           plant.heat_price_ohm[side] * wheels[side].current_A * wheels[side].current_A;
-  };
-  return model_->time_W + supply_power_W(plant.robot.power, {cost_W(Side::left), cost_W(Side::right)});
+  return model_->time_W + planned_power_W(plant, wheels);
 }
 
 double PlaceCost::least(double u, double q) const {
