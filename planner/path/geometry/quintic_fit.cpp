@@ -4,11 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/path/geometry/path.hpp"
+
 namespace joulepath {
 namespace {
 
 constexpr int kLooks = 16;
 constexpr int kDeepestFit = 12;
+constexpr double kTurned_rad = 1e-3;
 
 /// Heading of the tangent: the robot's, turned by pi in reverse.
 double tangent_rad(const Curve& curve, const PathPoint& point) {
@@ -38,22 +41,23 @@ RationalBezier quintic(const Curve& curve, double from_m, double to_m) {
   return fit;
 }
 
-/// Largest distance between the fit and the curve, at equal shares of their lengths.
-double distance_m(const RationalBezier& fit, const Curve& curve, double from_m, double to_m) {
+/// Whether the fit stays beside the curve and as turned as it, at equal shares of their lengths.
+bool follows(const RationalBezier& fit, const Curve& curve, double from_m, double to_m, double tolerance_m) {
   const BezierSegment segment = BezierSegment::rational(fit);
-  double largest_m = 0;
   for (int i = 1; i < kLooks; ++i) {
-    const Pose wanted = curve.at(from_m + (to_m - from_m) * i / kLooks).pose;
+    const PathPoint wanted = curve.at(from_m + (to_m - from_m) * i / kLooks);
     const Pose found = segment.at(segment.length_m() * i / kLooks).pose;
-    largest_m = std::max(largest_m, std::hypot(found.x_m - wanted.x_m, found.y_m - wanted.y_m));
+    if (std::hypot(found.x_m - wanted.pose.x_m, found.y_m - wanted.pose.y_m) > tolerance_m) return false;
+    if (std::abs(wrapped_angle_rad(found.heading_rad - tangent_rad(curve, wanted))) > kTurned_rad)
+      return false;
   }
-  return largest_m;
+  return true;
 }
 
 void append(const Curve& curve, double from_m, double to_m, double tolerance_m, int depth,
             std::vector<RationalBezier>& out) {
   RationalBezier fit = quintic(curve, from_m, to_m);
-  if (depth == kDeepestFit || distance_m(fit, curve, from_m, to_m) <= tolerance_m) {
+  if (depth == kDeepestFit || follows(fit, curve, from_m, to_m, tolerance_m)) {
     out.push_back(std::move(fit));
     return;
   }
