@@ -43,7 +43,8 @@ class BatchCommand : public Command {
     add_job_options(line, options_, "results.jsonl, timings.jsonl, report.html");
     add_plan_options(line, plan_);
     add_confidence(line, confidence_);
-    line.flag("--path-bound", plan_.path_bound, "bound the energy over all paths (takes longer)");
+    line.flag("--path-bound", plan_.path_bound,
+              "bound the energy over all paths, a key of each line (takes longer)");
     line.flag("--baselines", plan_.baselines, "compare every mission with trapezoids (takes longer)");
   }
 

@@ -39,6 +39,8 @@ Json plan_line(const Plan& plan) {
   if (plan.path_bound && plan.path_bound->energy_J) {
     json["path_lower_bound_J"] = *plan.path_bound->energy_J;
     json["path_gap_percent"] = path_gap_percent(*plan.path_bound, plan.energy.total_J());
+  } else if (plan.path_bound) {
+    json["path_bound_reason"] = plan.path_bound->reason;
   }
   for (const BaselineTotal& baseline : plan.baselines)
     if (baseline.name == "trapezoid_best_tuned" && baseline.feasible)

@@ -62,11 +62,30 @@ void print_baselines(std::ostream& stream, const Plan& plan) {
   table.print(stream);
 }
 
+/// A bound in some digits, rounded away from what it bounds.
+std::string rounded(double value, int digits, double (*away)(double)) {
+  if (!(std::abs(value) > 0) || !std::isfinite(value)) return figure(value, digits);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+  return figure(unit * away(value / unit), digits);
+}
+std::string at_least(double value, int digits) { return rounded(value, digits, std::floor); }
+std::string at_most_percent(double value) { return rounded(value, 2, std::ceil) + " %"; }
+
 /// Status and gap, with what the bound is about: the chosen paths, for a robot with a jerk limit without it.
 std::string optimality_text(const Plan& plan) {
   return std::string(solve_status_name(plan.status)) + " on these paths" + (plan.local ? " (local)" : "") +
          ", gap to the bound " + (limits_jerk(plan) ? "without the jerk limit" : "there") +
-         " <= " + figure(plan.gap_percent, 2) + " %";
+         " <= " + at_most_percent(plan.gap_percent);
+}
+
+/// Gaps of the legs that have a bound, where the mission has none.
+std::string bounded_legs_text(const Plan& plan) {
+  std::string text;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    if (const LegPlan& leg = plan.legs[k]; leg.path_bound && leg.path_bound->energy_J)
+      text += (text.empty() ? "" : ", ") + leg_text(k, leg.to) +
+              " <= " + at_most_percent(path_gap_percent(*leg.path_bound, leg.energy.total_J()));
+  return text.empty() ? "" : "gaps to any path of the other legs: " + text + "\n";
 }
 
 /// The gap to any path, or why none is known.
@@ -74,16 +93,18 @@ void print_path_bound(std::ostream& stream, const Plan& plan) {
   if (!plan.path_bound) return;
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
     if (const LegPlan& leg = plan.legs[k]; far_above_bound(leg))
-      stream << "note: leg " << leg_text(k, leg.to) << " lies "
-             << figure(path_gap_percent(*leg.path_bound, leg.energy.total_J()), 3)
-             << " % above the bound over all paths: try another --seed or a stop on the way\n";
+      stream << "note: other paths of leg " << leg_text(k, leg.to) << " may save up to "
+             << at_most_percent(path_gap_percent(*leg.path_bound, leg.energy.total_J()))
+             << ": try another --seed or a stop on the way\n";
   const PathBound& bound = *plan.path_bound;
   if (!bound.energy_J) {
-    stream << "no bound over all paths: " << bound.reason << "\n";
+    stream << "no bound over all paths: " << bound.reason << "\n" << bounded_legs_text(plan);
     return;
   }
-  stream << "no path of any kind takes less than " << figure(*bound.energy_J, 5)
-         << " J in this time, gap <= " << figure(path_gap_percent(bound, plan.energy.total_J()), 2) << " %\n";
+  stream << "no path of any kind takes less than " << at_least(*bound.energy_J, 5) << " J in this time"
+         << (limits_jerk(plan) ? " without the jerk limit" : "")
+         << ", gap <= " << at_most_percent(path_gap_percent(bound, plan.energy.total_J()))
+         << " (weakest part of the bound: " << path_bound_part_name(bound.part) << ")\n";
 }
 
 void print_battery(std::ostream& stream, const BatteryAccount& battery, bool is_upper_bound) {

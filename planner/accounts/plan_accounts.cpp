@@ -87,6 +87,7 @@ double path_gap_percent(const PathBound& bound, double energy_J) {
 
 bool far_above_bound(const LegPlan& leg) {
   constexpr double kFar_percent = 15;
+  if (leg.price_of_time_W < 0) return false;  // a longer time than is useful: its standby energy is no choice
   return leg.path_bound && leg.path_bound->energy_J && leg.path_bound->part != PathBound::Part::corners &&
          path_gap_percent(*leg.path_bound, leg.energy.total_J()) > kFar_percent;
 }

@@ -46,7 +46,7 @@ class HeadingProgram {
   std::vector<HeadingStage> stages_{};
   double anchor_rad_{};
   bool reverse_{};
-  double size_{}, course_{};  ///< of lambda
+  double size_{}, course_{};  ///< of lambda: J/m, rad
   Costs along_{};             ///< lambda along the motion
   std::array<bool, kHeadings> forward_{};
   Costs cost_{};

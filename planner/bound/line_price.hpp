@@ -20,7 +20,6 @@ struct LinePrice {
   double length_m() const { return s_m.back(); }
 };
 
-/// `shortest_m`, in the result's length: a line must hold both ramps.
 [[nodiscard]] LinePrice line_price(const PowerForm& form, double length_m, double time_W);
 
 /// The price at a place of a line's piece; the speed is that which limits of acceleration let a robot reach.

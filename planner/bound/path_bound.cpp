@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "model/progress.hpp"
+#include "planner/accounts/plan_accounts.hpp"
+#include "planner/accounts/stretch_account.hpp"
 #include "planner/bound/geodesic.hpp"
 #include "planner/bound/line_price.hpp"
 #include "planner/legs/stretch.hpp"
@@ -56,6 +58,11 @@ std::string not_covered(const LegPlan& leg, bool least_time) {
   return "";
 }
 
+/// What a leg takes between its stops, time at its price included.
+double driving_cost_J(const LegPlan& leg, double standby_W, double time_W) {
+  return leg.energy.total_J() - standby_W * leg.dwell_s + time_W * leg.duration_s;
+}
+
 /// Bounds of a plan's legs, each at a price of a second.
 class PlanBounds {
  public:
@@ -77,7 +84,7 @@ class PlanBounds {
   LegBound bound(std::size_t k, double time_W) {
     const LegPlan& leg = plan_.legs[k];
     if (const std::string reason = not_covered(leg, least_time_); !reason.empty()) return {.reason = reason};
-    const double cost_J = leg.energy.total_J() - standby_W_ * leg.dwell_s + time_W * leg.duration_s;
+    const double cost_J = driving_cost_J(leg, standby_W_, time_W);
     return bounds_.find(ends_of(leg, headings_[k], headings_[k + 1], cost_J), time_W);
   }
 
@@ -163,6 +170,41 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
   return bound;
 }
 
+namespace {
+
+/// Under a jerk limit the price of a second is that of the problem with it: the bound, without it, may be
+/// better at a lower price. Any price gives a valid bound.
+std::vector<double> prices_to_try(const Plan& plan, double price_W) {
+  if (price_W > 0 && limits_jerk(plan)) return {price_W, 0.25 * price_W, 0.0};
+  return {price_W};
+}
+
+PathBound better(const PathBound& one, const PathBound& other) {
+  return one.energy_J && other.energy_J && *other.energy_J > *one.energy_J ? other : one;
+}
+
+/// All legs at one price, because other plans may share the time of the mission otherwise.
+PathBound mission_bound(PlanBounds& bounds, const Plan& plan, double price_W, double standby_W) {
+  LegBound sum;
+  double driving_s = 0, dwell_s = 0, widest_J = -kNoLimit;
+  for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
+    const LegBound& leg = bounds.find(k, price_W);
+    if (!leg.reason.empty()) sum.reason = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
+    sum.cost_J += leg.cost_J, driving_s += plan.legs[k].duration_s, dwell_s += plan.legs[k].dwell_s;
+    if (const double gap_J = driving_cost_J(plan.legs[k], standby_W, price_W) - leg.cost_J; gap_J > widest_J)
+      widest_J = gap_J, sum.around_corners = leg.around_corners, sum.by_headings = leg.by_headings;
+  }
+  return path_bound(sum, price_W, driving_s, standby_W * dwell_s);
+}
+
+/// What no path takes less than, the given paths do not either.
+void raise_to(const PathBound& bound, double energy_J, double& lower_bound_J, double& gap) {
+  if (!bound.energy_J || !(*bound.energy_J > lower_bound_J)) return;
+  lower_bound_J = *bound.energy_J, gap = gap_percent(energy_J, lower_bound_J);
+}
+
+}  // namespace
+
 void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
                      const RouteSpace* space) {
   if (!is_driven(plan) || plan.legs.empty()) return;
@@ -172,22 +214,24 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
     const double price_W = std::max(0.0, leg.price_of_time_W);
-    leg.path_bound = path_bound(bounds.find(k, price_W), price_W, leg.duration_s, standby_W * leg.dwell_s);
+    PathBound best;
+    for (const double trial_W : prices_to_try(plan, price_W)) {
+      const PathBound found =
+          path_bound(bounds.find(k, trial_W), trial_W, leg.duration_s, standby_W * leg.dwell_s);
+      best = trial_W == price_W ? found : better(best, found);
+    }
+    leg.path_bound = best;
+    raise_to(best, leg.energy.total_J(), leg.lower_bound_J, leg.gap_percent);
     finish_steps();
     driving_s += leg.duration_s, spent_J += price_W * leg.duration_s;
     lowest_W = std::min(lowest_W, price_W), highest_W = std::max(highest_W, price_W);
   }
-  // One price for all legs, any price being valid: other plans may share the time of the mission otherwise.
   const double price_W = driving_s > 0 ? std::clamp(spent_J / driving_s, lowest_W, highest_W) : 0;
-  LegBound sum;
-  double dwell_s = 0;
-  for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
-    const LegBound& leg = bounds.find(k, price_W);
-    if (!leg.reason.empty()) sum.reason = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
-    sum.cost_J += leg.cost_J, sum.around_corners |= leg.around_corners, sum.by_headings |= leg.by_headings;
-    dwell_s += plan.legs[k].dwell_s;
+  for (const double trial_W : prices_to_try(plan, price_W)) {
+    const PathBound found = mission_bound(bounds, plan, trial_W, standby_W);
+    plan.path_bound = trial_W == price_W ? found : better(*plan.path_bound, found);
   }
-  plan.path_bound = path_bound(sum, price_W, driving_s, standby_W * dwell_s);
+  raise_to(*plan.path_bound, plan.energy.total_J(), plan.lower_bound_J, plan.gap_percent);
 }
 
 }  // namespace joulepath

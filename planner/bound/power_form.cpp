@@ -150,8 +150,14 @@ void mark_mirrored(std::vector<Sector>& sectors) {
                                   [&](const Sector& forward) { return is_reverse_of(sector, forward); });
 }
 
+/// A part of the floor may lie between all places at which the form is compared with the model.
+bool acts_in_places(const Effect& effect) {
+  return std::visit([](const auto& one) { return std::decay_t<decltype(one)>::info.needs.pose; }, effect);
+}
+
 std::string culprit(const Plant& plant, double payload_kg) {
   for (const Effect& effect : plant.effects) {
+    if (acts_in_places(effect)) return setting_of(effect).name;
     Plant alone = plant;
     alone.effects = {effect};
     alone.torque_loss_fraction = alone.creep_m_s_N = 0;
@@ -189,13 +195,15 @@ PowerForm power_form(const Plant& plant, const Limits& limits, double payload_kg
                  .regeneration = robot.power.regeneration_efficiency,
                  .shared = robot.power.sharing == PowerSharing::bus,
                  .reverse = std::isfinite(limits.reverse_speed_m_s),
-                 .limits = limits,
-                 .payload_kg = payload_kg};
+                 .limits = limits};
   form.yaw_inertia_kg_m2 = mass_properties(robot, plant.payload_kg(payload_kg)).yaw_inertia_kg_m2 +
                            2 * robot.inertia.wheel_axle_inertia_kg_m2 * l * l / (r * r);
   form.yaw_inertia_kg_m2 *= robot.motor.left.voltage_constant_V_s_rad / robot.motor.left.torque_constant_Nm_A;
   form.not_covered = missing_limit(form);
-  if (form.not_covered.empty() && !fit(plain, payload_kg, form.sectors))
+  if (form.not_covered.empty() && plant.driver_voltage_drop_V < 0)
+    form.not_covered = "the bound does not cover a negative voltage drop of the drivers";
+  if (form.not_covered.empty() && (std::any_of(plain.effects.begin(), plain.effects.end(), acts_in_places) ||
+                                   !fit(plain, payload_kg, form.sectors)))
     form.not_covered = "the bound does not cover " + culprit(plain, payload_kg);
   if (!form.reverse) std::erase_if(form.sectors, [](const Sector& sector) { return sector.travel < 0; });
   mark_mirrored(form.sectors);

@@ -44,14 +44,13 @@ struct PowerForm {
   bool reverse{};              ///< the robot may drive backward
   double yaw_inertia_kg_m2{};  ///< credited to a turning robot: any value gives a valid bound
   Limits limits{};
-  double payload_kg{};
   std::string not_covered{};  ///< reason why there is no such form; empty if there is one
 };
 
 /// The power of a plant, from pointwise evaluations of the model: each form is fitted at eight motions of its
 /// sector and compared with the model at others, at random places, times and memories of the effects. An
-/// effect whose power has another form is named in `not_covered`. The driver's voltage drop is left out,
-/// which lowers the power.
+/// effect whose power has another form, or that acts on a part of the floor, is named in `not_covered`. The
+/// driver's voltage drop is left out, which lowers the power; a negative one is not covered.
 [[nodiscard]] PowerForm power_form(const Plant& plant, const Limits& limits, double payload_kg);
 
 }  // namespace joulepath

@@ -67,8 +67,8 @@ struct WayImprovement {
 /// The energy below which no path of any kind leads from stop to stop in the plan's time or less.
 struct PathBound {
   std::optional<double> energy_J{};  ///< dwell included; absent where there is a reason
-  /// What the bound rests on: a straight line of the length of the shortest way, headings at the stops, or a
-  /// shortest way around corners, which the bound drives as if it were straight.
+  /// What the bound of the leg with the widest gap rests on: a straight line of the length of the shortest
+  /// way, headings at the stops, or a shortest way around corners, which it drives as if it were straight.
   enum class Part { line, headings, corners };
   Part part{};
   std::string reason{};  ///< reason why there is no bound

@@ -111,11 +111,6 @@ std::size_t longest_stretch(const LegPlan& leg) {
   return longest;
 }
 
-const char* part_name(PathBound::Part part) {
-  if (part == PathBound::Part::corners) return "corners";
-  return part == PathBound::Part::headings ? "headings" : "line";
-}
-
 /// The bound over all paths and the gap to it, where it was asked for.
 void add_path_bound(const std::optional<PathBound>& bound, double energy_J, Json& json) {
   if (!bound) return;
@@ -123,7 +118,7 @@ void add_path_bound(const std::optional<PathBound>& bound, double energy_J, Json
   json["path_lower_bound_J"] = known ? number(*bound->energy_J) : Json(nullptr);
   json["path_gap_percent"] = known ? number(path_gap_percent(*bound, energy_J)) : Json(nullptr);
   if (known)
-    json["path_bound_part"] = part_name(bound->part);
+    json["path_bound_part"] = path_bound_part_name(bound->part);
   else
     json["path_bound_reason"] = bound->reason;
 }
@@ -289,6 +284,11 @@ const char* uncertainty_text(const Plan& plan) {
   return plan.sigma_has_model_error
              ? "of the robot file's constants and of the model"
              : "of the robot file's constants alone: it states no model_energy in uncertainty:";
+}
+
+const char* path_bound_part_name(PathBound::Part part) {
+  if (part == PathBound::Part::corners) return "corners";
+  return part == PathBound::Part::headings ? "headings" : "line";
 }
 
 std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot) {

@@ -12,6 +12,9 @@ namespace joulepath {
 /// `robot`: the robot that it is for.
 [[nodiscard]] std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot = {});
 
+/// line, headings or corners.
+[[nodiscard]] const char* path_bound_part_name(PathBound::Part part);
+
 /// What the 95 % intervals of a plan hold, or why it has none: "unknown: ...".
 [[nodiscard]] const char* uncertainty_text(const Plan& plan);
 

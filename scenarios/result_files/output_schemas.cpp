@@ -53,11 +53,11 @@ constexpr const char* kWithoutJerk =
 
 constexpr const char* kPathBoundMeans =
     "no path of any kind from stop to stop takes less in this time, driving backward only where the robot "
-    "states a speed for it; null where it is not covered";
+    "states a speed for it, without the jerk limit and in the order of the stops; null where not covered";
 constexpr const char* kPathGapMeans = "to that bound, relative to the energy";
 constexpr const char* kPathPartMeans =
-    "line | headings | corners: what the bound rests on; headings: those at the ends raise it; corners: it "
-    "takes the way around them as straight";
+    "line | headings | corners: what the bound rests on, on the leg with the widest gap; headings: those at "
+    "the ends raise it; corners: it takes the way around them as straight";
 constexpr const char* kPathReasonMeans = "reason why that bound is null";
 
 Schema leg_result_schema() {

@@ -1,6 +1,6 @@
 /** The report of `joulepath plan`. Data: {plan, trajectory: {column: [..]}, overlays: [{name, columns}], limits, map, title}. */
 import {button, h, key} from "page/dom.js";
-import {fraction, is_number, number, percent, short, signed, value_at, with_unit, words} from "page/numbers.js";
+import {at_most_percent, fraction, is_number, number, percent, short, signed, value_at, with_unit, words} from "page/numbers.js";
 import {ramp_css} from "page/theme.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
@@ -52,7 +52,7 @@ jp.operation_tile = function (data) {
 
 /** How good the plan is, in one line. */
 jp.quality_text = function (plan) {
-  const parts = [is_number(plan.optimality_gap_percent) ? `speed profile within ${percent(plan.optimality_gap_percent, 2)}${jp.bound_text(plan)}` : "", is_number(plan.path_gap_percent) ? `path within ${percent(plan.path_gap_percent, 2)} of any path` : ""].filter(Boolean);
+  const parts = [is_number(plan.optimality_gap_percent) ? `speed profile within ${at_most_percent(plan.optimality_gap_percent)}${jp.bound_text(plan)}` : "", is_number(plan.path_gap_percent) ? `path within ${at_most_percent(plan.path_gap_percent)} of any path` : ""].filter(Boolean);
   return parts.length ? h("p", {class: "soft small"}, "Of the least energy: " + parts.join(", ") + ".") : null;
 };
 
@@ -197,16 +197,17 @@ jp.confidence_section = function (plan) {
 
 /** What each gap means, for readers who know neither. */
 jp.gap_texts = function (plan) {
-  const texts = (plan.legs || []).flatMap((leg, k) => leg.far_above_path_bound ? [`Leg ${jp.leg_name(leg, k)} lies ${percent(leg.path_gap_percent, 3)} above the bound over all paths, with no corner to explain it: another seed or a stop on the way may be cheaper.`] : []);
+  const texts = (plan.legs || []).flatMap((leg, k) => leg.far_above_path_bound ? [`Other paths of leg ${jp.leg_name(leg, k)} may save up to ${at_most_percent(leg.path_gap_percent)}, with no corner to explain it: another seed or a stop on the way may be cheaper.`] : []);
   if (is_number(plan.optimality_gap_percent)) texts.push("The gap on these paths is how much energy a better speed profile on the same paths could save at most.");
-  if (is_number(plan.path_gap_percent)) texts.push("The gap to any path is how much energy any other paths between the same stops, driven at any speeds in this time, could save at most; what can really be saved is usually far less." + (plan.path_bound_part === "corners" ? " It counts the shortest ways around obstacles as if they were straight, so part of it is the price of corners." : plan.path_bound_part === "headings" ? " It knows the headings at the stops, but not that the yaw rate takes time to change." : ""));
+  const bounded = (plan.legs || []).flatMap((leg, k) => is_number(leg.path_gap_percent) ? [`${jp.leg_name(leg, k)} ${at_most_percent(leg.path_gap_percent)}`] : []);
+  if (bounded.length) texts.push("The gap to any path is how much energy any other paths between the same stops, driven at any speeds in this time, could save at most; what can really be saved is usually far less. Jerk limits are left out." + (is_number(plan.path_gap_percent) ? "" : ` Legs for which it is known: ${bounded.join(", ")}.`) + (plan.path_bound_part === "corners" ? " It counts the shortest ways around obstacles as if they were straight, so part of it is the price of corners." : plan.path_bound_part === "headings" ? " It knows the headings at the stops, but not that the yaw rate takes time to change." : plan.path_bound_part === "line" ? " It is that of straight lines: headings at the stops do not raise it." : ""));
   return texts;
 };
 
 jp.trust_section = function (plan) {
   const rows = [["status on these paths", words(plan.status)]];
-  if (is_number(plan.optimality_gap_percent)) rows.push(["gap to their optimum" + jp.bound_text(plan), percent(plan.optimality_gap_percent, 2)]);
-  if (is_number(plan.path_gap_percent)) rows.push(["gap to any path", percent(plan.path_gap_percent, 2)]);
+  if (is_number(plan.optimality_gap_percent)) rows.push(["gap to their optimum" + jp.bound_text(plan), at_most_percent(plan.optimality_gap_percent)]);
+  if (is_number(plan.path_gap_percent)) rows.push(["gap to any path", at_most_percent(plan.path_gap_percent)]);
   else if (plan.path_bound_reason) rows.push(["gap to any path", "unknown: " + plan.path_bound_reason]);
   if (plan.replay) rows.push(["energy by the replay (its own integrator)", with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${words(plan.replay.limit)})` : "")]);

@@ -16,6 +16,11 @@ export function number(value, digits = 4) {
 export const short = (value, digits = 4) => number(value, digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
 export const with_unit = (value, unit, digits) => (is_number(value) ? number(value, digits) + "\u202f" + unit : "–");
 export const percent = (value, digits = 3) => with_unit(value, "%", digits);
+/** A percentage that is an upper bound: rounded up. */
+export function at_most_percent(value, digits = 2) {
+  const unit = 10 ** (Math.floor(Math.log10(Math.abs(value))) - digits + 1);
+  return percent(value ? unit * Math.ceil(value / unit) : value, digits);
+}
 export const fraction = (value, digits = 3) => percent(is_number(value) ? 100 * value : value, digits);
 /** A difference with its sign. */
 export const signed = (value, digits = 3) => (is_number(value) && value > 0 ? "+" : "") + number(value, digits);

@@ -42,7 +42,8 @@ class SweepCommand : public Command {
         .between(0, static_cast<int>(kMostSearched))
         .shows_default();
     add_plan_options(line, plan_);
-    line.flag("--path-bound", plan_.path_bound, "bound the energy over all paths (takes longer)");
+    line.flag("--path-bound", plan_.path_bound,
+              "bound the energy over all paths, a column of sweep.csv (takes longer)");
   }
 
   int run() override {

@@ -213,7 +213,10 @@ std::string sweep_csv(const Study& study, const std::vector<std::string>& lines)
   for (const SweepParameter& parameter : study.designs.parameters())
     columns.push_back(csv_field(parameter.name));
   columns.insert(columns.end(), kColumnsAfter.begin(), kColumnsAfter.end());
-  columns.insert(columns.end(), sweep_results().begin(), sweep_results().end());
+  std::vector<std::string> results = sweep_results();
+  if (std::ranges::any_of(lines, [](const std::string& line) { return line.find("\"path_") != line.npos; }))
+    results.emplace_back("path_lower_bound_J");  // with --path-bound
+  columns.insert(columns.end(), results.begin(), results.end());
   std::string csv;
   for (const std::string& column : columns) csv += (csv.empty() ? "" : ",") + column;
   csv += "\n";
@@ -223,8 +226,8 @@ std::string sweep_csv(const Study& study, const std::vector<std::string>& lines)
     csv += std::to_string(line["design"].get<std::size_t>()) + "," + csv_field(line["mission"]);
     for (const auto& value : line["parameters"]) csv += "," + csv_field(text_of(value));
     csv += "," + line["status"].get<std::string>() + (reason.empty() ? ",yes," : ",no,") + csv_field(reason);
-    for (const std::string& result : sweep_results())
-      csv += "," + (line.contains(result) ? number_text(line[result]) : "");
+    for (const std::string& result : results)
+      csv += "," + (line.contains(result) && line[result].is_number() ? number_text(line[result]) : "");
     csv += "\n";
   }
   return csv;

@@ -283,7 +283,7 @@ def check_texts(browser, folder):
     for words in ("1 to shelf <3> & co", "2 to dock", "Energy of a year", "Of the least energy: speed profile within 0.020"):
         assert words in text, f"{words!r} is not on the page"
     assert "0 to shelf" not in text and "(0.25\u202f% less)" in browser.run("return document.querySelector('.sentence').textContent")
-    far = re.findall(r"Leg (\d) .* above the bound over all paths", text)
+    far = re.findall(r"Other paths of leg (\d) .* may save up to", text)
     assert far == ["1"], f"legs far above their bound: {far}"
     browser.open(f"{folder}/infeasible.html", "light")
     said = browser.run("return document.body.innerText")

@@ -142,6 +142,77 @@ TEST(MutantsOfTheBound, AreCaught) {
   EXPECT_LT(least_J, 1.01 * bound.energy_J) << "all rates too high by 1 %";
 }
 
+/// What X refunds to a turning robot may only fall along the way: a rise would pay for a rotation twice.
+TEST(LineBound, CreditsOfATurnNeverRise) {
+  for (const Variant& variant : kVariants) {
+    const PowerForm form = form_of(robot_of(variant), variant.payload_kg);
+    for (const double way_m : {0.3, 1.2, 3.5}) {
+      const LinePrice line = line_price(form, way_m, 0.0);
+      for (const double price_J : {0.0, 3.0}) {
+        const auto credits = falling_credits(form, line, 0.0, {-price_J, price_J}, {0.0});
+        for (std::size_t k = 0; k + 1 < credits.size(); ++k) {
+          EXPECT_LE(credits[k + 1].spin, credits[k].spin) << variant.name << k;
+          EXPECT_LE(credits[k + 1].inner, credits[k].inner) << variant.name << k;
+        }
+      }
+    }
+  }
+}
+
+/// L + dX/dt of a motion in J/m, where the energy comes from the judge: the mean power of 0.1 ms.
+double rate_of(const JudgeRobot& judge, const PowerForm& form, const MotionPrice& price, double v, double w,
+               double a, double alpha) {
+  constexpr double kStep_s = 1e-4;
+  const double before = -0.5 * kStep_s, after = 0.5 * kStep_s;
+  const Motion motion{.time_s = {0, kStep_s},
+                      .speed_m_s = {v + a * before, v + a * after},
+                      .yaw_rate_rad_s = {w + alpha * before, w + alpha * after}};
+  const double power_W = drive(judge, motion).energy_J / kStep_s;
+  const double backward = std::abs(w) * form.half_track_m > v ? 1 : 0;
+  return (power_W + price.p_slope * v * v * v + 2 * price.p * v * a -
+          price.credit.spin * form.yaw_inertia_kg_m2 * w * alpha -
+          price.credit.inner * backward * (form.half_track_m * alpha * (w > 0 ? 1 : -1) - a)) /
+         v;
+}
+
+/// The least rate at a price of a radian is below that of every motion at the place. Without the least over
+/// the yaw acceleration it is not.
+TEST(LeastRate, NoMotionAtItsPlaceTakesLess) {
+  std::mt19937 random(7);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  int below_without_yaw_acceleration = 0;
+  for (const Variant& variant : kVariants) {
+    const Robot robot = robot_of(variant);
+    const JudgeRobot judge = path_bound::judge_robot(robot, *robot.limits, variant.payload_kg);
+    const PowerForm form = form_of(robot, variant.payload_kg);
+    PowerForm stiff = form;
+    stiff.limits.yaw_acceleration_rad_s2 = 0;
+    const LinePrice line = line_price(form, 1.6, 0.0);
+    const std::vector<TurnCredit> credits = falling_credits(form, line, 0.0, {0.0}, {0.0});
+    for (std::size_t k = 4; k + 4 < credits.size(); k += 5) {
+      if (k == line.peak) continue;
+      MotionPrice price = price_on(line, k, true, form);
+      price.credit = credits[k];
+      constexpr double kPerRad_J = 3;
+      const double least = least_rates(form, price, {kPerRad_J}, 0.01).front(),
+                   least_stiff = least_rates(stiff, price, {kPerRad_J}, 0.01).front();
+      const Limits& limits = form.limits;
+      for (int n = 0; n < 400; ++n) {
+        const double v = draw(0.02, std::min(limits.speed_m_s, price.most_m_s));
+        const double w_most = std::min(limits.yaw_rate_rad_s, limits.lateral_acceleration_m_s2 / v);
+        const double w = draw(-w_most, w_most), a = draw(-limits.deceleration_m_s2, limits.acceleration_m_s2);
+        const double alpha = draw(-limits.yaw_acceleration_rad_s2, limits.yaw_acceleration_rad_s2);
+        const double rate = rate_of(judge, form, price, v, w, a, alpha) - kPerRad_J * w / v;
+        EXPECT_GE(rate, least - 1e-3 * std::abs(least)) << variant.name << " piece " << k;
+        below_without_yaw_acceleration += rate < least_stiff;
+      }
+    }
+  }
+  EXPECT_GT(below_without_yaw_acceleration, 0) << "a bound that leaves the yaw acceleration out";
+}
+
 TEST(PowerForm, EffectsThatDependOnMoreThanTheMotionAreNamed) {
   Robot robot = nomad();
   EXPECT_EQ(form_of(robot).not_covered, "");
@@ -151,6 +222,31 @@ TEST(PowerForm, EffectsThatDependOnMoreThanTheMotionAreNamed) {
     robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.01}}}, effect};
     EXPECT_EQ(form_of(robot).not_covered, "the bound does not cover " + effect.name);
   }
+}
+
+/// Wherever the patch lies: also between all places that are looked at.
+TEST(PowerForm, APartOfTheFloorIsNotCovered) {
+  Robot robot = nomad();
+  for (const double coefficient : {-0.019, 0.03})
+    for (const double x_m : {-11.0, 0.0, 7.3, 400.0}) {
+      robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.02}}},
+                       {.name = "floor_patch",
+                        .parameters = {{"coefficient", coefficient},
+                                       {"x_min_m", x_m},
+                                       {"x_max_m", x_m + 2},
+                                       {"y_min_m", 1.0},
+                                       {"y_max_m", 3.5}}}};
+      EXPECT_EQ(form_of(robot).not_covered, "the bound does not cover floor_patch") << x_m;
+    }
+}
+
+/// A drop is left out, which lowers the power only where it is one.
+TEST(PowerForm, ANegativeVoltageDropIsNotCovered) {
+  Robot robot = nomad();
+  robot.effects = {{.name = "driver_voltage_drop", .parameters = {{"voltage_V", 0.6}}}};
+  EXPECT_EQ(form_of(robot).not_covered, "");
+  robot.effects[0].parameters["voltage_V"] = -0.6;
+  EXPECT_EQ(form_of(robot).not_covered, "the bound does not cover a negative voltage drop of the drivers");
 }
 
 TEST(PowerForm, LimitsThatTheBoundNeedsAreNamed) {

@@ -10,8 +10,9 @@
 namespace joulepath {
 namespace {
 
-Plan planned(const MissionRequest& mission, bool path_bound = true) {
+Plan planned(const MissionRequest& mission, bool path_bound = true, double jerk_m_s3 = kNoLimit) {
   MissionWorld world{.robot = testing::nomad()};
+  world.robot.limits->jerk_m_s3 = jerk_m_s3;
   world.robot.footprint.radius_m = 0.2;
   world.map = free_grid(240, 160, 0.05);
   return plan_mission(
@@ -74,6 +75,26 @@ TEST(PathBounds, ContainThePriceOfADeadline) {
   ASSERT_TRUE(hurried.path_bound && hurried.path_bound->energy_J);
   EXPECT_LE(*hurried.path_bound->energy_J, hurried.energy.total_J());
   EXPECT_GT(*hurried.path_bound->energy_J, *free.path_bound->energy_J);
+}
+
+/// Under a jerk limit the price of a second, which is far above that without it, is no good multiplier. What
+/// holds for all paths holds for the given ones.
+TEST(PathBounds, LessTimeNeverLowersThem) {
+  MissionRequest mission;
+  mission.stations = {{"a", {.x_m = 5, .y_m = 1}}};
+  mission.start.pose = {1, 1, 0};
+  mission.legs = {{.to = "a"}};
+  double before_J = 0;
+  for (const double price_W : {0.0, 30.0, 300.0, 3000.0}) {
+    mission.objective = {.minimize = Objective::Minimize::energy_and_time, .time_value_W = price_W};
+    const Plan plan = planned(mission, true, 0.3);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << price_W << plan.message;
+    ASSERT_TRUE(plan.path_bound && plan.path_bound->energy_J);
+    EXPECT_GE(*plan.path_bound->energy_J, before_J - 1e-6) << price_W;
+    EXPECT_GE(plan.lower_bound_J, *plan.path_bound->energy_J) << price_W;
+    EXPECT_LE(plan.lower_bound_J, plan.energy.total_J()) << price_W;
+    before_J = *plan.path_bound->energy_J;
+  }
 }
 
 TEST(PathBounds, GivenPathsHaveAReasonInstead) {
