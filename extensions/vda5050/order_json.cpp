@@ -106,7 +106,13 @@ void write_leg(OrderWriter& writer, const LegPlan& leg, const std::vector<double
   const PathPiece* last = leg.stretches.empty() ? nullptr : &leg.stretches.back().request.piece;
   if (last && !leg.to.empty() && leg.to != "path") writer.last_node()["nodeId"] = leg.to;
   if (last && turned) writer.face(piece_point(*last, piece_length(*last)).pose.heading_rad);
-  if (leg.dwell_s > 0) writer.wait(leg.dwell_s);
+}
+
+/// A robot passes a node without an action at speed: where the plan stops on its way, it waits for its dwell,
+/// which may be no time at all.
+bool waits_after(const LegPlan& leg, bool last) {
+  const bool rests = leg.stretches.empty() || leg.stretches.back().request.end_rate == 0;
+  return leg.dwell_s > 0 || (!last && rests);
 }
 
 }  // namespace
@@ -145,6 +151,7 @@ Json order_of_plan(const ExportInput& input, const PartSpeeds& speeds) {
       begun = true;
     }
     write_leg(writer, leg, speeds[k]);
+    if (waits_after(leg, k + 1 == input.plan.legs.size())) writer.wait(leg.dwell_s);
   }
   return writer.order(input.plan.mission);
 }

@@ -40,13 +40,21 @@ TEST(Export, EdgesOfAnOrderHaveItsNamesAndAddUp) {
   EXPECT_NEAR(energy_J, order().plan.energy.total_J(), 1e-7 * energy_J);
 }
 
-TEST(ContinuousPlan, AnOrderBeginsWhereThePlanDoes) {
+TEST(ContinuousPlan, AnOrderBeginsAndStopsWhereThePlanDoes) {
   const ScratchDirectory scratch;
   for (const PlannedMission& plan : continuous_plans()) {
     if (std::any_of(plan.plan.legs.begin(), plan.plan.legs.end(),
                     [](const LegPlan& leg) { return leg.prescribed.has_value(); }))
       continue;
-    const Json order = Json::parse(export_vda5050(plan.input(scratch.at("o.json"))).files[0].content);
+    const std::string text = export_vda5050(plan.input(scratch.at("o.json"))).files[0].content;
+    const auto driven = std::count_if(plan.plan.legs.begin(), plan.plan.legs.end(),
+                                      [](const LegPlan& leg) { return leg.distance_m > 0; });
+    if (driven > 0) {
+      MissionRequest back{.order_file = scratch.write("o.json", text)};
+      follow_order(back);
+      EXPECT_GE(std::ssize(back.legs), driven) << plan.name << ": no stop is lost";
+    }
+    const Json order = Json::parse(text);
     const Json& place = order["nodes"][0]["nodePosition"];
     const Trajectory motion = plan_trajectory(plan.plan, plan.plant);
     EXPECT_NEAR(place["x"].get<double>(), motion.position_x_m[0], 1e-9) << plan.name;

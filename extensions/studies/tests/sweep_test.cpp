@@ -75,6 +75,18 @@ TEST_F(Sweep, FrictionHeldAtTheWheelLeavesTheHeatOfAcceleration) {
   EXPECT_NEAR((energy_J[1] - energy_J[2]) / (full / 400 - full / 1600), 1.0, 2e-3);
 }
 
+TEST_F(Sweep, ABoundOverAllPathsHasItsColumn) {
+  const std::string study =
+      "missions: mission.yaml\nparameters: {gear: {key: robot.motor.gear_ratio, values: [20]}}\n";
+  for (const char* option : {"", "--path-bound"}) {
+    ASSERT_EQ(sweep(study, option).code, 0);
+    std::istringstream rows(text_of(scratch.at("out/sweep.csv")));
+    std::string header;
+    std::getline(rows, header);
+    EXPECT_EQ(header.ends_with(",path_lower_bound_J"), *option != 0) << header;
+  }
+}
+
 TEST_F(Sweep, DesignsThatFailHaveTheirReason) {
   ASSERT_EQ(sweep("missions: mission.yaml\nconstraints: {energy_J: {max: 60}}\n"
                   "objectives: {energy_J: minimize, payload: maximize}\n"
