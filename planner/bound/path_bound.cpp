@@ -34,13 +34,15 @@ LegEnds ends_of(const LegPlan& leg, const std::optional<double>& start_rad,
           .cost_at_most_J = cost_J};
 }
 
+bool path_is_given(const LegPlan& leg) { return leg.path_source == "bezier" || leg.path_source == "given"; }
+
 /// Headings that a mission names at its stops: the start's, then each leg's goal.
 std::vector<std::optional<double>> named_headings(const MissionRequest& mission, const Plan& plan) {
   std::vector<std::optional<double>> headings(1);
   if (mission.start.heading_given) headings[0] = mission.start.pose.heading_rad;
   for (const LegPlan& leg : plan.legs) {
     const auto station = mission.stations.find(leg.to);
-    const bool is_searched = !leg.prescribed && leg.path_source != "bezier" && leg.path_source != "given";
+    const bool is_searched = !leg.prescribed && !path_is_given(leg);
     headings.push_back(is_searched && station != mission.stations.end() ? station->second.heading_rad
                                                                         : std::nullopt);
   }
@@ -49,7 +51,7 @@ std::vector<std::optional<double>> named_headings(const MissionRequest& mission,
 
 std::string not_covered(const LegPlan& leg, bool least_time) {
   if (leg.prescribed) return "the leg's motion is given";
-  if (leg.path_source == "bezier" || leg.path_source == "given") return "the leg's path is given";
+  if (path_is_given(leg)) return "the leg's path is given";
   if (least_time) return "the plan takes the least time, not the least energy";
   if (leg.payload.from_kg != leg.payload.to_kg) return "the payload changes along the leg";
   for (const StretchPlan& stretch : leg.stretches)
@@ -183,17 +185,36 @@ PathBound better(const PathBound& one, const PathBound& other) {
   return one.energy_J && other.energy_J && *other.energy_J > *one.energy_J ? other : one;
 }
 
+/// What a leg of a given path or motion takes at least, which other paths of the other legs do not change:
+/// the bound of its profile holds at the leg's own price of a second, and at any higher one.
+std::optional<double> given_cost_J(const LegPlan& leg, double standby_W, double price_W) {
+  if (leg.prescribed) return driving_cost_J(leg, standby_W, price_W);
+  const double own_W = std::max(0.0, leg.price_of_time_W);
+  if (!path_is_given(leg) || !std::isfinite(leg.lower_bound_J) || own_W > price_W) return std::nullopt;
+  return leg.lower_bound_J - standby_W * leg.dwell_s + own_W * leg.duration_s;
+}
+
 /// All legs at one price, because other plans may share the time of the mission otherwise.
 PathBound mission_bound(PlanBounds& bounds, const Plan& plan, double price_W, double standby_W) {
   LegBound sum;
+  std::string none;  // the reason where no leg has a bound
   double driving_s = 0, dwell_s = 0, widest_J = -kNoLimit;
   for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
     const LegBound& leg = bounds.find(k, price_W);
-    if (!leg.reason.empty()) sum.reason = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
-    sum.cost_J += leg.cost_J, driving_s += plan.legs[k].duration_s, dwell_s += plan.legs[k].dwell_s;
+    driving_s += plan.legs[k].duration_s, dwell_s += plan.legs[k].dwell_s;
+    if (!leg.reason.empty()) {
+      none = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
+      if (const std::optional<double> given_J = given_cost_J(plan.legs[k], standby_W, price_W))
+        sum.cost_J += *given_J;
+      else
+        sum.reason = none;
+      continue;
+    }
+    sum.cost_J += leg.cost_J;
     if (const double gap_J = driving_cost_J(plan.legs[k], standby_W, price_W) - leg.cost_J; gap_J > widest_J)
       widest_J = gap_J, sum.around_corners = leg.around_corners, sum.by_headings = leg.by_headings;
   }
+  if (sum.reason.empty() && widest_J == -kNoLimit) sum.reason = none;
   return path_bound(sum, price_W, driving_s, standby_W * dwell_s);
 }
 

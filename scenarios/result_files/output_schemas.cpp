@@ -53,7 +53,9 @@ constexpr const char* kWithoutJerk =
 
 constexpr const char* kPathBoundMeans =
     "no path of any kind from stop to stop takes less in this time, driving backward only where the robot "
-    "states a speed for it, without the jerk limit and in the order of the stops; null where not covered";
+    "states a speed for it, without the jerk limit, in the order of the stops and along given paths; null "
+    "where "
+    "not covered";
 constexpr const char* kPathGapMeans = "to that bound, relative to the energy";
 constexpr const char* kPathPartMeans =
     "line | headings | corners: what the bound rests on, on the leg with the widest gap; headings: those at "

@@ -97,16 +97,27 @@ TEST(PathBounds, LessTimeNeverLowersThem) {
   }
 }
 
-TEST(PathBounds, GivenPathsHaveAReasonInstead) {
+/// A leg of a given path has no bound over other paths; the mission's holds what that path takes at least.
+TEST(PathBounds, GivenPathsCountWithTheirOwnBound) {
   MissionRequest mission = two_legs();
-  mission.legs.push_back(
-      {.to = "path", .path = PathRequest{.bezier_m = {{{{0, 0}, {0.4, 0}, {0.8, 0}, {1.2, 0}}}}}});
-  const Plan plan = planned(mission);
-  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
-  EXPECT_EQ(plan.legs.back().path_bound->reason, "the leg's path is given");
-  EXPECT_EQ(plan.path_bound->reason, "leg 3 (path): the leg's path is given");
-  EXPECT_FALSE(plan.path_bound->energy_J);
-  EXPECT_TRUE(plan.legs.front().path_bound->energy_J);
+  const PathRequest line{.bezier_m = {{{{0, 0}, {0.4, 0}, {0.8, 0}, {1.2, 0}}}}};
+  mission.legs.push_back({.to = "path", .path = line});
+  const Plan free = planned(mission);
+  mission.objective.deadline_s = 0.98 * free.duration_s;
+  for (const Plan& plan : {free, planned(mission)}) {
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    EXPECT_EQ(plan.legs.back().path_bound->reason, "the leg's path is given");
+    ASSERT_TRUE(plan.path_bound->energy_J);
+    double searched_J = 0;
+    for (std::size_t k : {0u, 1u}) searched_J += *plan.legs[k].path_bound->energy_J;
+    EXPECT_NEAR(*plan.path_bound->energy_J - searched_J, plan.legs.back().lower_bound_J, 0.01);
+    EXPECT_LE(*plan.path_bound->energy_J, plan.energy.total_J());
+  }
+  mission.legs = {{.to = "path", .path = line}};
+  mission.objective.deadline_s.reset();
+  const Plan given = planned(mission);
+  EXPECT_FALSE(given.path_bound->energy_J);
+  EXPECT_EQ(given.path_bound->reason, "leg 1 (path): the leg's path is given");
 }
 
 }  // namespace
