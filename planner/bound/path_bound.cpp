@@ -185,13 +185,15 @@ PathBound better(const PathBound& one, const PathBound& other) {
   return one.energy_J && other.energy_J && *other.energy_J > *one.energy_J ? other : one;
 }
 
-/// What a leg of a given path or motion takes at least, which other paths of the other legs do not change:
-/// the bound of its profile holds at the leg's own price of a second, and at any higher one.
-std::optional<double> given_cost_J(const LegPlan& leg, double standby_W, double price_W) {
+/// What a leg of a given path or motion takes at least, which other paths of the other legs do not change.
+/// The bound of its profile holds at the leg's own price of a second and above; below it a leg gains no more
+/// than the difference for each of the mission's `most_s`.
+std::optional<double> given_cost_J(const LegPlan& leg, double standby_W, double price_W, double most_s) {
   if (leg.prescribed) return driving_cost_J(leg, standby_W, price_W);
+  if (!path_is_given(leg) || !std::isfinite(leg.lower_bound_J)) return std::nullopt;
   const double own_W = std::max(0.0, leg.price_of_time_W);
-  if (!path_is_given(leg) || !std::isfinite(leg.lower_bound_J) || own_W > price_W) return std::nullopt;
-  return leg.lower_bound_J - standby_W * leg.dwell_s + own_W * leg.duration_s;
+  return leg.lower_bound_J - standby_W * leg.dwell_s + own_W * leg.duration_s -
+         std::max(0.0, own_W - price_W) * most_s;
 }
 
 /// All legs at one price, because other plans may share the time of the mission otherwise.
@@ -199,12 +201,12 @@ PathBound mission_bound(PlanBounds& bounds, const Plan& plan, double price_W, do
   LegBound sum;
   std::string none;  // the reason where no leg has a bound
   double driving_s = 0, dwell_s = 0, widest_J = -kNoLimit;
+  for (const LegPlan& leg : plan.legs) driving_s += leg.duration_s, dwell_s += leg.dwell_s;
   for (std::size_t k = 0; k < plan.legs.size() && sum.reason.empty(); ++k) {
     const LegBound& leg = bounds.find(k, price_W);
-    driving_s += plan.legs[k].duration_s, dwell_s += plan.legs[k].dwell_s;
     if (!leg.reason.empty()) {
       none = "leg " + leg_text(k, plan.legs[k].to) + ": " + leg.reason;
-      if (const std::optional<double> given_J = given_cost_J(plan.legs[k], standby_W, price_W))
+      if (const std::optional<double> given_J = given_cost_J(plan.legs[k], standby_W, price_W, driving_s))
         sum.cost_J += *given_J;
       else
         sum.reason = none;
