@@ -39,7 +39,7 @@ inline JudgeRobot judge_robot(const Robot& robot, const Limits& limits, double p
 }
 
 /// A robot with what makes a bound difficult: recovered energy, unequal friction, a center of mass off the
-/// axle. All may drive backward but one.
+/// axle, limits far from each other. All may drive backward but one.
 struct Variant {
   const char* name{};
   double payload_kg{};
@@ -48,6 +48,8 @@ struct Variant {
   double friction_left_Nm{0.3728};
   bool bus{};
   bool forward_only{};
+  double acceleration_m_s2{0.5}, deceleration_m_s2{0.5};
+  double yaw_rate_rad_s{2}, yaw_acceleration_rad_s2{2};
 };
 inline constexpr Variant kVariants[] = {{.name = "plain"},
                                         {.name = "forward only", .forward_only = true},
@@ -58,13 +60,27 @@ inline constexpr Variant kVariants[] = {{.name = "plain"},
                                          .regeneration = 0.5,
                                          .center_of_mass_m = -0.06,
                                          .friction_left_Nm = 0.6,
-                                         .bus = true}};
+                                         .bus = true},
+                                        {.name = "brakes hard, turns slowly",
+                                         .acceleration_m_s2 = 0.3,
+                                         .deceleration_m_s2 = 1.2,
+                                         .yaw_rate_rad_s = 0.4,
+                                         .yaw_acceleration_rad_s2 = 0.5},
+                                        {.name = "turns quickly",
+                                         .regeneration = 0.5,
+                                         .center_of_mass_m = 0.03,
+                                         .yaw_rate_rad_s = 5,
+                                         .yaw_acceleration_rad_s2 = 8}};
 
 inline Robot robot_of(Robot robot, const Variant& variant) {
   robot.geometry.center_of_mass_offset_m = variant.center_of_mass_m;
   robot.motor.left.friction_torque_Nm = variant.friction_left_Nm;
   robot.power.regeneration_efficiency = variant.regeneration;
   robot.power.sharing = variant.bus ? PowerSharing::bus : PowerSharing::wheel;
+  robot.limits->acceleration_m_s2 = variant.acceleration_m_s2;
+  robot.limits->deceleration_m_s2 = variant.deceleration_m_s2;
+  robot.limits->yaw_rate_rad_s = variant.yaw_rate_rad_s;
+  robot.limits->yaw_acceleration_rad_s2 = variant.yaw_acceleration_rad_s2;
   robot.limits->reverse_speed_m_s = variant.forward_only ? kNoLimit : robot.limits->speed_m_s;
   return robot;
 }
