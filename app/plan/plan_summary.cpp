@@ -129,10 +129,9 @@ void print_winding(std::ostream& stream, const WindingAccount& winding) {
          << figure(-winding.above_limit_K, 3) << " K below the limit";
   if (winding.price_of_heat > 0)
     stream << ", slower for it: price of heat " << figure(winding.price_of_heat, 3);
-  const auto [left_A, right_A] = winding.planned_current_A;
-  if (std::isfinite(std::min(left_A, right_A)))
-    stream << ", slower for it: at most " << figure(left_A, 4) << " A left, " << figure(right_A, 4)
-           << " A right";
+  if (winding.planned_current_A)
+    stream << ", slower for it: at most " << figure(winding.planned_current_A->left, 4) << " A left, "
+           << figure(winding.planned_current_A->right, 4) << " A right";
   stream << "\n";
 }
 

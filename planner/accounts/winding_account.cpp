@@ -148,9 +148,13 @@ std::optional<WindingAccount> winding_account(const Plan& plan, const Plant& pla
   WindingAccount account = std::move(heating).account();
   for (const LegPlan& leg : plan.legs) {
     account.price_of_heat = std::max(account.price_of_heat, leg.state.price_of_heat);
+    const Sided<double>& planned_A = leg.state.planned_current_A;
+    if (std::isinf(std::min(planned_A.left, planned_A.right))) continue;
+    if (!account.planned_current_A)
+      account.planned_current_A =
+          map_sides(plant.robot.motor, [](Side, const Motor& motor) { return motor.max_current_A; });
     for (const Side side : kSides)
-      account.planned_current_A[side] =
-          std::min(account.planned_current_A[side], leg.state.planned_current_A[side]);
+      (*account.planned_current_A)[side] = std::min((*account.planned_current_A)[side], planned_A[side]);
   }
   return account;
 }

@@ -146,12 +146,13 @@ struct BatteryAccount {
 /// Temperatures of the windings over a plan.
 struct WindingAccount {
   double highest_C{};
-  Side side{};                                          ///< of the highest temperature
-  double above_limit_K{};                               ///< negative where the limit is kept
-  std::optional<std::size_t> fails_on_leg{};            ///< first leg on which a winding is too hot
-  double fails_at_s{};                                  ///< from the mission's start
-  double price_of_heat{};                               ///< the greatest of the legs
-  Sided<double> planned_current_A{kNoLimit, kNoLimit};  ///< at most on all legs, for the temperatures' sake
+  Side side{};                                ///< of the highest temperature
+  double above_limit_K{};                     ///< negative where the limit is kept
+  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which a winding is too hot
+  double fails_at_s{};                        ///< from the mission's start
+  double price_of_heat{};                     ///< the greatest of the legs
+  /// At most on all legs, where that is for the temperatures' sake.
+  std::optional<Sided<double>> planned_current_A{};
   std::vector<Sided<double>> hottest_on_leg_C{};
   std::vector<Sided<double>> after_leg_C{};               ///< after its dwell
   std::vector<Sided<double>> resistance_factor_on_leg{};  ///< mean by copper loss

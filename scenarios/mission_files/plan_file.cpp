@@ -199,9 +199,7 @@ Json winding_json(const Plan& plan) {
             {"resistance_factor_on_leg", list_of_states(plan, [](const LegState& state) {
                return sided_json(state.resistance_factor);
              })}};
-  const Sided<double>& planned_A = winding.planned_current_A;
-  if (std::isfinite(planned_A.left) && std::isfinite(planned_A.right))
-    json["planned_current_A"] = sided_json(planned_A);
+  if (winding.planned_current_A) json["planned_current_A"] = sided_json(*winding.planned_current_A);
   return json;
 }
 
