@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "diagnosis/evidence/power.hpp"
@@ -11,11 +12,15 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/config_error.hpp"
 #include "model/effects/effect_label.hpp"
+#include "model/kinematics.hpp"
 #include "model/limit_table.hpp"
 #include "model/motions.hpp"
+#include "model/sampled_motion.hpp"
 // Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
 namespace {
+
+constexpr double kLimitRounding = 1e-6;  ///< relative, of motions that were cut to limits
 
 /// What limits a further run.
 struct Circumstances {
@@ -36,13 +41,28 @@ Circumstances circumstances_of(const Identification& id, const Robot& robot) {
   return c;
 }
 
-RunSignals driven_signals(const std::vector<PrescribedMotion>& motions, const Robot& robot,
-                          const std::vector<double>& payload_kg, const Circumstances& circumstances) {
-  const TimedMotion timed = timed_motion(robot, motions, {.payload_of_motion_kg = payload_kg});
-  Run run{.name = "proposed",
-          .log = timed.trajectory,
-          .payload_known = true,
-          .start_time_s = circumstances.time_of_day_s};
+/// Whether motors, battery and tires can drive it. A jerk limit is left out: motions of constant
+/// accelerations keep none.
+bool is_drivable(const Robot& robot, const Trajectory& motion) {
+  const Plant plant = make_plant(robot);
+  bool within_limits = true;
+  for (std::size_t k = 0; k + 1 < motion.size() && within_limits; ++k) {
+    const SampledState state = sampled_state(motion, std::midpoint(motion.time_s[k], motion.time_s[k + 1]));
+    const BodyMotion<double>& body = state.motion;
+    const double payload_kg = motion.payload_kg[k + 1],
+                 gain_m_s2 = std::copysign(1.0, body.speed_m_s) * body.acceleration_m_s2;
+    const Site site = site_of(robot.geometry, state.pose, payload_kg, body.speed_m_s, body.yaw_rate_rad_s);
+    for_each_limit(limit_state(plant, body, site, gain_m_s2, 0.0), limits_for_payload(robot, payload_kg),
+                   [&](const Limit&, double value, double limit) {
+                     within_limits &= limit_fraction(value, limit) <= 1 + kLimitRounding;
+                   });
+  }
+  return within_limits;
+}
+
+RunSignals signals_of(const Trajectory& motion, const Robot& robot, const Circumstances& circumstances) {
+  const Run run{
+      .name = "proposed", .log = motion, .payload_known = true, .start_time_s = circumstances.time_of_day_s};
   return make_run_signals(run, 0, robot, circumstances.sampling);
 }
 
@@ -64,7 +84,10 @@ Trial tried(const Identification& id, const Robot& robot, const std::vector<Riva
       trial.motions.push_back(
           within(limits_for_payload(robot, trial.payload_kg.back()), manoeuvre.motions[k]));
     }
-    const RunSignals motion = driven_signals(trial.motions, robot, trial.payload_kg, circumstances);
+    const Trajectory drive =
+        timed_motion(robot, trial.motions, {.payload_of_motion_kg = trial.payload_kg}).trajectory;
+    if (!is_drivable(robot, drive)) return trial;
+    const RunSignals motion = signals_of(drive, robot, circumstances);
     double least = 1e300, settled = 0;
     for (const Rival& truth : rivals) {
       const RunSignals shown = expected_signals(id, robot, motion, truth);
