@@ -23,16 +23,19 @@ nlohmann::ordered_json number_or_null(double value) {
 
 nlohmann::ordered_json parameters_json(const CalibrationResult& result) {
   auto list = nlohmann::ordered_json::array();
-  for (const CalibratedParameter& p : result.parameters)
+  for (const CalibratedParameter& p : result.parameters) {
+    const bool known = p.visibility != Visibility::unseen;
+    const auto known_number = [&](double value) { return number_or_null(known ? value : std::nan("")); };
     list.push_back({{"name", p.name},
                     {"unit", p.unit},
                     {"nominal", p.nominal},
                     {"value", p.value},
-                    {"standard_deviation", number_or_null(p.standard_deviation)},
-                    {"interval_95", {number_or_null(p.interval_95[0]), number_or_null(p.interval_95[1])}},
+                    {"standard_deviation", known_number(p.standard_deviation)},
+                    {"interval_95", {known_number(p.interval_95[0]), known_number(p.interval_95[1])}},
                     {"effective_runs", p.effective_runs},
                     {"visibility", visibility_name(p.visibility)},
                     {"note", p.note}});
+  }
   return list;
 }
 

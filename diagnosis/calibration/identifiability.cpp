@@ -101,7 +101,7 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
       Eigen::Index at = 0;
       while (free[static_cast<std::size_t>(at)] != kPayloadFactor) ++at;
       if (std::sqrt(H.inverse()(at, at)) > kWidestPayloadFactor) {
-        hold(result, kPayloadFactor, "payloads differ too little between the runs");
+        hold(result, kPayloadFactor, "the runs hardly show it");
         continue;
       }
     }

@@ -19,10 +19,6 @@ constexpr std::string_view kFrame = "map";
 constexpr double kLastStamp_s = 2147483647.0;  ///< 32 bits hold the seconds of a stamp
 
 /// The channels of the power messages of a plan; those of a log are all that it has beside its motion.
-const std::vector<std::string> kPlanPower{"battery_power_W",      "energy_J",
-                                          "motor_power_left_W",   "motor_power_right_W",
-                                          "motor_current_left_A", "motor_current_right_A"};
-
 MessageChannel ros_channel(const std::string& topic, const std::string& type) {
   return {.topic = topic,
           .type = type,
@@ -88,6 +84,14 @@ std::string power(const Trajectory& motion, const std::vector<std::string>& colu
   return message.dump();
 }
 
+/// Names of the columns that a motion has.
+std::vector<std::string> columns_of(const Trajectory& motion) {
+  std::vector<std::string> columns;
+  for (const LogColumn& column : log_columns())
+    if (column.name != "time_s" && !column.of(motion).empty()) columns.push_back(column.name);
+  return columns;
+}
+
 /// The bag of a motion, on topics below `prefix`.
 std::string bag_of(const Trajectory& motion, const std::string& prefix,
                    const std::vector<std::string>& power_columns) {
@@ -139,19 +143,16 @@ Trajectory with_body_motion(Trajectory log, const Geometry& geometry) {
 
 Export export_bag(const ExportInput& input) {
   const Trajectory motion = plan_trajectory(input.plan, input.plant, input.rate_Hz.value_or(kBagRate_Hz));
-  return {.files = {{input.out_file, bag_of(motion, "/plan", kPlanPower)}}};
+  return {.files = {{input.out_file, bag_of(motion, "/plan", columns_of(motion))}}};
 }
 
 std::string log_bag(const Trajectory& log, const Geometry& geometry) {
-  std::vector<std::string> columns;
-  for (const LogColumn& column : log_columns())
-    if (column.name != "time_s" && !column.of(log).empty()) columns.push_back(column.name);
   Trajectory motion = with_body_motion(log, geometry);
   const double before_0_s = std::min(0.0, log.time_s.front());  // a stamp is not negative
   for (double& time_s : motion.time_s) time_s -= before_0_s;
   if (motion.time_s.back() > kLastStamp_s)
     throw ConfigError({{}, "time_s", std::to_string(motion.time_s.back()) + " s", "times below 2^31 s", ""});
-  return bag_of(motion, "/log", columns);
+  return bag_of(motion, "/log", columns_of(log));
 }
 
 }  // namespace joulepath

@@ -58,6 +58,9 @@ TEST(ExportLaws, TheDatasetProposedForABagReadsIt) {
   const Trajectory log = dataset_from(Document::load(dataset), {}, {}, {.robot = &robot}).runs.at(0).log;
   EXPECT_EQ(log.size(), lopsided_rows().size());
   EXPECT_EQ(log.motor_power_W.left.size(), log.size());
+  ASSERT_EQ(log.payload_kg.size(), log.size()) << "estimated without its payload it takes less";
+  for (std::size_t k = 0; k < log.size(); ++k)
+    ASSERT_NEAR(log.payload_kg[k], lopsided_rows().payload_kg[k], 1e-9) << k;
 }
 
 TEST(ContinuousPlan, RowsOfABagFollowEachOther) {
