@@ -78,14 +78,14 @@ std::string optimality_text(const Plan& plan) {
          " <= " + at_most_percent(plan.gap_percent);
 }
 
-/// Gaps of the legs that have a bound, where the mission has none.
+/// Gaps of the legs that have a bound; none where one leg is the mission.
 std::string bounded_legs_text(const Plan& plan) {
   std::string text;
-  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+  for (std::size_t k = 0; plan.legs.size() > 1 && k < plan.legs.size(); ++k)
     if (const LegPlan& leg = plan.legs[k]; leg.path_bound && leg.path_bound->energy_J)
       text += (text.empty() ? "" : ", ") + leg_text(k, leg.to) +
               " <= " + at_most_percent(path_gap_percent(*leg.path_bound, leg.energy.total_J()));
-  return text.empty() ? "" : "gaps to any path of the other legs: " + text + "\n";
+  return text.empty() ? "" : "gaps of legs to any path: " + text + "\n";
 }
 
 /// The gap to any path, or why none is known.
@@ -96,9 +96,10 @@ void print_path_bound(std::ostream& stream, const Plan& plan) {
       stream << "note: other paths of leg " << leg_text(k, leg.to) << " may save up to "
              << at_most_percent(path_gap_percent(*leg.path_bound, leg.energy.total_J()))
              << ": try another --seed or a stop on the way\n";
+  stream << bounded_legs_text(plan);
   const PathBound& bound = *plan.path_bound;
   if (!bound.energy_J) {
-    stream << "no bound over all paths: " << bound.reason << "\n" << bounded_legs_text(plan);
+    stream << "no bound over all paths: " << bound.reason << "\n";
     return;
   }
   stream << "no path of any kind takes less than " << at_least(*bound.energy_J, 5) << " J in this time"
