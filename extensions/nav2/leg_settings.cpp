@@ -26,7 +26,8 @@ class Group {
   /// `one_acceleration`: for both directions of speed changes.
   explicit Group(bool one_acceleration = false) : one_acceleration_(one_acceleration) {}
 
-  /// Adds the stretches of a leg; the upper bounds of the settings are the least of theirs.
+  /// Adds the stretches of a leg; the upper bounds of the settings are the least of theirs. A limit of
+  /// driving in reverse bounds the rate of those stretches alone, unless nothing is driven forward.
   void add(const LegPlan& leg, bool turns) {
     for (const StretchPlan& stretch : leg.stretches) {
       if (is_turn(stretch.request.piece) != turns) continue;
@@ -37,7 +38,10 @@ class Group {
       duration_s_ += stretch.profile.time_s.back();
       length_ += path_motion(stretch.request).length();
       const TrapezoidSettings own = fastest_settings({}, stretch);
-      fastest_.rate = std::min(fastest_.rate, own.rate);
+      const bool forward = turns || travel_sign(stretch.request.piece) > 0;
+      if (forward && !has_forward_) fastest_.rate = own.rate;
+      has_forward_ |= forward;
+      if (forward == has_forward_) fastest_.rate = std::min(fastest_.rate, own.rate);
       fastest_.acceleration = std::min(fastest_.acceleration, own.acceleration);
       fastest_.deceleration = std::min(fastest_.deceleration, own.deceleration);
     }
@@ -72,7 +76,9 @@ class Group {
   Driven driven(const Requests& requests, const TrapezoidSettings& settings) const {
     Driven sum{.settings = settings};
     for (const ProfileRequest& request : requests) {
-      const BaselineResult result = controlled_stretch(request, settings);
+      TrapezoidSettings own = settings;
+      if (!is_turn(request.piece)) own.rate = std::min(own.rate, request.limits.speed_m_s);
+      const BaselineResult result = controlled_stretch(request, own);
       sum.duration_s += result.profile ? result.duration_s : kNoLimit;
       sum.energy_J += result.feasible ? result.energy_J : kNoLimit;
     }
@@ -145,6 +151,7 @@ class Group {
     return sum_J;
   }
 
+  bool has_forward_{};
   bool one_acceleration_{};
   std::vector<TrapezoidFamily> families_{};
   Requests requests_{}, drafts_{};

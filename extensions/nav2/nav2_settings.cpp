@@ -66,11 +66,17 @@ std::string loses(const Plan& plan, const ControllerLoss& loss) {
   return text + (loss.broken_limit.empty() ? "" : "; exceeds a limit: " + loss.broken_limit);
 }
 
-std::string velocity_smoother(const LegSettings& s) {
-  const std::string speed = number(s.drive->rate), yaw_rate = number(s.yaw_rate_rad_s);
+/// What one set of settings allows in reverse.
+double reverse_rate(const LegSettings& s, const Limits& limits) {
+  return std::min(s.drive->rate, limits.reverse_speed_m_s);
+}
+
+std::string velocity_smoother(const LegSettings& s, const Limits& limits) {
+  const std::string speed = number(s.drive->rate), yaw_rate = number(s.yaw_rate_rad_s),
+                    reverse = number(reverse_rate(s, limits));
   const std::string yaw_acceleration = number(s.yaw_acceleration_rad_s2);
   return "velocity_smoother:\n  ros__parameters:\n    feedback: OPEN_LOOP\n    max_velocity: [" + speed +
-         ", 0.0, " + yaw_rate + "]\n    min_velocity: [-" + speed + ", 0.0, -" + yaw_rate +
+         ", 0.0, " + yaw_rate + "]\n    min_velocity: [-" + reverse + ", 0.0, -" + yaw_rate +
          "]\n    max_accel: [" + number(s.drive->acceleration) + ", 0.0, " + yaw_acceleration +
          "]\n    max_decel: [-" + number(s.drive->deceleration) + ", 0.0, -" + yaw_acceleration + "]\n";
 }
@@ -93,14 +99,16 @@ std::string rpp(const LegSettings& s) {
          number(s.turn->rate) + "\n      max_angular_accel: " + number(s.turn->acceleration) + "\n";
 }
 
-std::string diff_drive(const LegSettings& s) {
-  const auto axis = [](double rate, double up, double down) {
-    return "max_velocity: " + number(rate) + ", min_velocity: -" + number(rate) +
+std::string diff_drive(const LegSettings& s, const Limits& limits) {
+  const auto axis = [](double rate, double reverse, double up, double down) {
+    return "max_velocity: " + number(rate) + ", min_velocity: -" + number(reverse) +
            ", max_acceleration: " + number(up) + ", max_deceleration: -" + number(down);
   };
   return "diff_drive_controller:\n  ros__parameters:\n    linear:\n      x: {" +
-         axis(s.drive->rate, s.drive->acceleration, s.drive->deceleration) + "}\n    angular:\n      z: {" +
-         axis(s.yaw_rate_rad_s, s.yaw_acceleration_rad_s2, s.yaw_acceleration_rad_s2) + "}\n";
+         axis(s.drive->rate, reverse_rate(s, limits), s.drive->acceleration, s.drive->deceleration) +
+         "}\n    angular:\n      z: {" +
+         axis(s.yaw_rate_rad_s, s.yaw_rate_rad_s, s.yaw_acceleration_rad_s2, s.yaw_acceleration_rad_s2) +
+         "}\n";
 }
 
 }  // namespace
@@ -115,6 +123,7 @@ Export export_nav2_settings(const ExportInput& input) {
                        "nothing that is driven along a path",
                        "a leg with to: or path:",
                        ""});
+  const Limits& limits = *input.world.robot.limits;
   const LegSettings all = common_settings(plan, driven->stretches.front().request.limits);
   const double any = TrapezoidFamily::kUnlimited;
   LegSettings no_pursuit = all, pursuit{.drive = all.drive, .turn = all.turn};
@@ -125,8 +134,8 @@ Export export_nav2_settings(const ExportInput& input) {
       "# Settings of least energy for mission " + plan.mission +
       ": one set of speeds and accelerations in the plan's time.\n# All sections: " + loses(plan, loss) +
       "\n# Without pure pursuit: " + loses(plan, loss_with(plan, no_pursuit)) +
-      "\n# Pure pursuit alone: " + loses(plan, loss_with(plan, pursuit)) + "\n" + velocity_smoother(all) +
-      rpp(all) + mppi(all) + diff_drive(all);
+      "\n# Pure pursuit alone: " + loses(plan, loss_with(plan, pursuit)) + "\n" +
+      velocity_smoother(all, limits) + rpp(all) + mppi(all) + diff_drive(all, limits);
   return {.files = {{input.out_file, text}}, .loss = loss};
 }
 

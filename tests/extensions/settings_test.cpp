@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "extensions/nav2/controller_settings.hpp"
 #include "extensions/nav2/exports.hpp"
@@ -88,6 +89,26 @@ TEST(Nav2Settings, CostWhatTheySayWhenReadBack) {
                   loss.own_time.energy_J);
     EXPECT_NE(text.find(said), std::string::npos) << said << "\n" << text.substr(0, 300);
   }
+}
+
+/// There and back in reverse, which is slower: the file says what each direction may, and costs what it says.
+TEST(Nav2Settings, ALimitInReverseDoesNotBindForward) {
+  const ScratchDirectory directory;
+  PlannedRound round("nomad_super_scout.yaml");
+  Path back;
+  back.pieces.push_back(Curve({LinearCurvature({6, 0, std::numbers::pi}, 4)}, Direction::reverse));
+  round.mission.legs = {round.mission.legs.front(), {.path = PathRequest{.ready = back}}};
+  round.world.robot.limits->reverse_speed_m_s = 0.3;
+  round.plan = plan_mission(round.mission, round.world, {.solver = SolverChoice::fast, .nodes = 60});
+  ASSERT_LE(round.plan.status, SolveStatus::feasible) << round.plan.message;
+  const Export written = export_nav2_settings(round.input("settings.yaml"));
+  const ControllerFile file =
+      read_controller_settings(directory.write("settings.yaml", written.files.at(0).content));
+  EXPECT_GT(*file.speed_m_s, 0.5);
+  EXPECT_NEAR(*file.reverse_speed_m_s, 0.3, 1e-9);
+  const ControllerLoss loss = loss_of(round.plan, drive_with(round.plan, file));
+  EXPECT_NEAR(loss.own_time.energy_J, written.loss->own_time.energy_J, 1e-5 * loss.own_time.energy_J);
+  EXPECT_LT(loss.own_time.duration_s, 1.05 * round.plan.duration_s);
 }
 
 TEST(ControllerFile, ReadsTheSettingsOfEachLegThatAnExportWrote) {
