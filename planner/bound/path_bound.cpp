@@ -174,15 +174,16 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
 
 namespace {
 
-/// Under a jerk limit the price of a second is that of the problem with it: the bound, without it, may be
-/// better at a lower price. Any price gives a valid bound.
-std::vector<double> prices_to_try(const Plan& plan, double price_W) {
-  if (price_W > 0 && limits_jerk(plan)) return {price_W, 0.25 * price_W, 0.0};
-  return {price_W};
-}
-
-PathBound better(const PathBound& one, const PathBound& other) {
-  return one.energy_J && other.energy_J && *other.energy_J > *one.energy_J ? other : one;
+/// The bound at a price of a second. Under a jerk limit the price is that of the problem with it, and the
+/// bound, without it, may be greater at a lower price: any price gives a valid bound.
+template <class At>
+PathBound greatest_bound(const Plan& plan, double price_W, const At& bound_at) {
+  PathBound best = bound_at(price_W);
+  if (!best.energy_J || !(price_W > 0) || !limits_jerk(plan)) return best;
+  for (const double share : {0.25, 0.0})
+    if (const PathBound found = bound_at(share * price_W); found.energy_J && *found.energy_J > *best.energy_J)
+      best = found;
+  return best;
 }
 
 /// What a leg of a given path or motion takes at least, which other paths of the other legs do not change.
@@ -237,23 +238,17 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
     const double price_W = std::max(0.0, leg.price_of_time_W);
-    PathBound best;
-    for (const double trial_W : prices_to_try(plan, price_W)) {
-      const PathBound found =
-          path_bound(bounds.find(k, trial_W), trial_W, leg.duration_s, standby_W * leg.dwell_s);
-      best = trial_W == price_W ? found : better(best, found);
-    }
-    leg.path_bound = best;
-    raise_to(best, leg.energy.total_J(), leg.lower_bound_J, leg.gap_percent);
+    leg.path_bound = greatest_bound(plan, price_W, [&](double trial_W) {
+      return path_bound(bounds.find(k, trial_W), trial_W, leg.duration_s, standby_W * leg.dwell_s);
+    });
+    raise_to(*leg.path_bound, leg.energy.total_J(), leg.lower_bound_J, leg.gap_percent);
     finish_steps();
     driving_s += leg.duration_s, spent_J += price_W * leg.duration_s;
     lowest_W = std::min(lowest_W, price_W), highest_W = std::max(highest_W, price_W);
   }
   const double price_W = driving_s > 0 ? std::clamp(spent_J / driving_s, lowest_W, highest_W) : 0;
-  for (const double trial_W : prices_to_try(plan, price_W)) {
-    const PathBound found = mission_bound(bounds, plan, trial_W, standby_W);
-    plan.path_bound = trial_W == price_W ? found : better(*plan.path_bound, found);
-  }
+  plan.path_bound = greatest_bound(
+      plan, price_W, [&](double trial_W) { return mission_bound(bounds, plan, trial_W, standby_W); });
   raise_to(*plan.path_bound, plan.energy.total_J(), plan.lower_bound_J, plan.gap_percent);
 }
 

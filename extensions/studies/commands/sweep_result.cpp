@@ -213,21 +213,24 @@ std::string sweep_csv(const Study& study, const std::vector<std::string>& lines)
   for (const SweepParameter& parameter : study.designs.parameters())
     columns.push_back(csv_field(parameter.name));
   columns.insert(columns.end(), kColumnsAfter.begin(), kColumnsAfter.end());
+  std::vector<Json> rows;
+  for (const std::string& text : lines) rows.push_back(Json::parse(text));
   std::vector<std::string> results = sweep_results();
-  if (std::ranges::any_of(lines, [](const std::string& line) { return line.find("\"path_") != line.npos; }))
-    results.emplace_back("path_lower_bound_J");  // with --path-bound
+  if (std::ranges::any_of(rows, [](const Json& line) {  // with --path-bound
+        return line.contains("path_lower_bound_J") || line.contains("path_bound_reason");
+      }))
+    results.emplace_back("path_lower_bound_J");
   columns.insert(columns.end(), results.begin(), results.end());
   std::string csv;
   for (const std::string& column : columns) csv += (csv.empty() ? "" : ",") + column;
   csv += "\n";
-  for (const std::string& text : lines) {
-    const Json line = Json::parse(text);
+  for (const Json& line : rows) {
     const std::string reason = reason_of(study, line);
     csv += std::to_string(line["design"].get<std::size_t>()) + "," + csv_field(line["mission"]);
     for (const auto& value : line["parameters"]) csv += "," + csv_field(text_of(value));
     csv += "," + line["status"].get<std::string>() + (reason.empty() ? ",yes," : ",no,") + csv_field(reason);
     for (const std::string& result : results)
-      csv += "," + (line.contains(result) && line[result].is_number() ? number_text(line[result]) : "");
+      csv += "," + (line.contains(result) ? number_text(line[result]) : "");
     csv += "\n";
   }
   return csv;

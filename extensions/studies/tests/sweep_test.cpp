@@ -77,7 +77,7 @@ TEST_F(Sweep, FrictionHeldAtTheWheelLeavesTheHeatOfAcceleration) {
 
 TEST_F(Sweep, ABoundOverAllPathsHasItsColumn) {
   const std::string study =
-      "missions: mission.yaml\nparameters: {gear: {key: robot.motor.gear_ratio, values: [20]}}\n";
+      "missions: mission.yaml\nparameters: {path_gear: {key: robot.motor.gear_ratio, values: [20]}}\n";
   for (const char* option : {"", "--path-bound"}) {
     ASSERT_EQ(sweep(study, option).code, 0);
     std::istringstream rows(text_of(scratch.at("out/sweep.csv")));
