@@ -51,8 +51,11 @@ class MultiplierSearch {
  public:
   MultiplierSearch(HeadingProgram& program, const Point2& offset_m, double most)
       : program_(program), offset_m_(offset_m), least_area_(kLeastArea * most * most) {
-    for (const Point2& corner : {Point2{-1, -1}, Point2{1, -1}, Point2{1, 1}, Point2{-1, 1}})
-      region_.push_back({most * corner[0], most * corner[1]});
+    const double way_m = std::hypot(offset_m[0], offset_m[1]);
+    const Point2 ahead = way_m > 0 ? Point2{offset_m[0] / way_m, offset_m[1] / way_m} : Point2{1, 0};
+    for (const auto& [along, left] : {Point2{-1, -1}, Point2{1, -1}, Point2{1, 1}, Point2{-1, 1}})
+      region_.push_back(
+          {most * (along * ahead[0] - left * ahead[1]), most * (along * ahead[1] + left * ahead[0])});
   }
 
   /// The best bound for the goal's heading, or for any; `lambda`: the first multiplier.

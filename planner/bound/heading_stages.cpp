@@ -11,12 +11,18 @@ constexpr double kRampStage_m = 0.025, kMiddleStage_m = 0.05, kLongMiddleStage_m
 constexpr int kMiddleStages = 300;
 constexpr double kRampShare = 0.4;  ///< of the way from rest, near rest
 constexpr double kFirstStage_m = 0.01;
+constexpr double kPartOfAStage = 1.2;  ///< the longest part of a piece
+constexpr double kClosed = 0.8;        ///< the length from which on a stage takes no further piece
+
+HeadingRates between(const HeadingRates& from, const HeadingRates& to, double share) {
+  return {from.most_J, (1 - share) * from.at + share * to.at};
+}
 
 /// One piece on which the rate is concave: its ends and, in the middle, their mean.
 void add_piece(HeadingStage& stage, double length_m, const HeadingRates& from, const HeadingRates& to) {
   const double at_m = stage.length_m;
   stage.nodes.push_back({at_m, 0.25 * length_m, from});
-  stage.nodes.push_back({at_m + 0.5 * length_m, 0.5 * length_m, {from.most_J, 0.5 * (from.at + to.at)}});
+  stage.nodes.push_back({at_m + 0.5 * length_m, 0.5 * length_m, between(from, to, 0.5)});
   stage.nodes.push_back({at_m + length_m, 0.25 * length_m, to});
   stage.length_m += length_m;
 }
@@ -72,9 +78,12 @@ std::vector<HeadingStage> heading_stages(const RateTable& table, double least_m,
     } else if (ds > 0) {
       const auto& [from, to] = table.pieces[k];
       if (!open.nodes.empty() && open.most_J() != from.most_J) close(open, stages);
-      add_piece(open, ds, from, to);
-      if (open.length_m >= std::clamp(kRampShare * from_rest_m, kFirstStage_m, kRampStage_m))
-        close(open, stages);
+      const double stage_m = std::clamp(kRampShare * from_rest_m, kFirstStage_m, kRampStage_m);
+      const int parts = static_cast<int>(std::ceil(ds / (kPartOfAStage * stage_m)));
+      for (int j = 0; j < parts; ++j) {
+        add_piece(open, ds / parts, between(from, to, 1.0 * j / parts), between(from, to, (j + 1.0) / parts));
+        if (open.length_m >= kClosed * stage_m) close(open, stages);
+      }
     }
   }
   close(open, stages);

@@ -9,11 +9,11 @@ namespace {
 
 constexpr int kAccelerations = 40;  ///< sampled between 0 and the limit
 constexpr double kSlowest = 0.004;  ///< first node, of the greatest speed
-constexpr int kSlowNodes = 12;      ///< up to a tenth of it, in equal ratios
-constexpr int kFastNodes = 22;
-constexpr double kLongest_m = 0.1;  ///< of the pieces between nodes
-constexpr double kShortest_m = 0.025;
-constexpr double kShortestShare = 0.3;  ///< of the way from rest, near rest
+constexpr int kSlowNodes = 24;      ///< up to a tenth of it, in equal ratios
+constexpr int kFastNodes = 32;
+constexpr double kLongest_m = 0.07;  ///< of the pieces between nodes
+constexpr double kShortest_m = 0.0125;
+constexpr double kShortestShare = 0.15;  ///< of the way from rest, near rest
 
 /// Power (W) along a straight line, driving forward.
 class Straight {
@@ -178,10 +178,10 @@ MotionPrice price_on(const LinePrice& line, std::size_t piece, bool at_end, cons
 
 namespace {
 
-constexpr double kTolerance = 0.03;  ///< J/m
-constexpr double kRoughly = 0.2;     ///< J/m, to choose by
+constexpr double kTolerance = 0.006;  ///< J/m
+constexpr double kRoughly = 0.2;      ///< J/m, to choose by
 constexpr std::size_t kPiecesOfACredit = 4;
-constexpr double kPieceTolerance_J = 2e-3;  ///< of a short piece
+constexpr double kPieceTolerance_J = 3e-4;  ///< of a short piece
 
 /// Integral of the least rate over one piece. The rate is concave along it: the mean of its ends is a bound.
 double piece_J(const PowerForm& form, const LinePrice& line, std::size_t piece, const TurnCredit& credit,
@@ -240,8 +240,7 @@ std::vector<TurnCredit> falling_credits(const PowerForm& form, const LinePrice& 
       if (!(ds > 0)) continue;
       MotionPrice price = price_on(line, (from + to) / 2, false, form);
       price.credit = credits[j], price.time_W = time_W;
-      for (const double rate : least_rates(form, price, from <= peak ? before_J : after_J,
-                                           std::max(kRoughly, kPieceTolerance_J / ds)))
+      for (const double rate : least_rates(form, price, from <= peak ? before_J : after_J, kRoughly))
         next[j] += ds * rate;
     }
     best = next;
@@ -260,7 +259,7 @@ LineBound line_bound(const PowerForm& form, double length_m, double time_W) {
   const std::vector<TurnCredit> credits = falling_credits(form, line, time_W, {0.0}, {0.0});
   LineBound bound{.length_m = length_m};
   const double per_m_J = least_rate(
-      form, {.p = line.p[line.peak], .credit = credits[line.peak], .time_W = time_W}, 0.1 * kTolerance);
+      form, {.p = line.p[line.peak], .credit = credits[line.peak], .time_W = time_W}, 0.5 * kTolerance);
   if (!(per_m_J >= 0)) return bound;
   bound.per_m_J = per_m_J;
   for (std::size_t k = 0; k < credits.size(); ++k)

@@ -8,8 +8,8 @@ namespace joulepath {
 namespace {
 
 constexpr int kPricesEachWay = 8;
-constexpr double kRateTolerance = 0.05;    ///< J/m
-constexpr double kRateTolerance_J = 5e-3;  ///< of a short piece
+constexpr double kRateTolerance = 0.02;    ///< J/m
+constexpr double kRateTolerance_J = 2e-3;  ///< of a short piece
 constexpr double kTypicalPrice = 0.5;      ///< of the price at which turning in place pays
 constexpr double kWidest = 0.97;           ///< of that price
 constexpr double kNarrower = 0.85;

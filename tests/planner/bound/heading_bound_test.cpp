@@ -79,27 +79,46 @@ TEST(HeadingStage, CostIsBelowTheIntegralForEverySlope) {
   const HeadingRates steep{3, Eigen::ArrayXd::LinSpaced(17, 9, -9)},
       flat{3, Eigen::ArrayXd::LinSpaced(17, 2, 4)};
   const HeadingRates bent{3, 5 - Eigen::ArrayXd::LinSpaced(17, -3, 3).square()};
-  RateTable table{.line = {.s_m = {0, 0.008, 0.02, 0.02, 0.03}, .p = {0, 0, 0, 0, 0}, .peak = 2},
+  RateTable table{.line = {.s_m = {0, 0.006, 0.018, 0.018, 0.03}, .p = {0, 0, 0, 0, 0}, .peak = 2},
                   .pieces = {{steep, bent}, {flat, steep}, {bent, bent}, {bent, flat}},
                   .middle = bent,
                   .bounded = true};
   const HeadingStage stage = heading_stages(table, 0.03, 0.03, false).front();
-  ASSERT_NEAR(stage.length_m, 0.02, 1e-12) << "two pieces in one";
+  ASSERT_NEAR(stage.length_m, 0.018, 1e-12) << "two pieces in one";
   for (const double price : {-1.5, 0.0, 0.8, 2.0})
     for (const double low : {-30.0, 10.0})
       for (const double high : {20.0, 45.0}) {
         double integral_J = 0;
         constexpr int kParts = 4000;
         for (int k = 0; k < kParts; ++k) {
-          const double sigma = 0.02 * (k + 0.5) / kParts, shift = sigma - 0.01;
+          const double sigma = 0.018 * (k + 0.5) / kParts, shift = sigma - 0.009;
           const double slope = k % 2 ? high : low, at = price - shift * slope;
-          const bool second = sigma > 0.008;
-          const double share = second ? (sigma - 0.008) / 0.012 : sigma / 0.008;
+          const bool second = sigma > 0.006;
+          const double share = second ? (sigma - 0.006) / 0.012 : sigma / 0.006;
           integral_J +=
-              0.02 / kParts * std::lerp(second ? flat(at) : steep(at), second ? steep(at) : bent(at), share);
+              0.018 / kParts * std::lerp(second ? flat(at) : steep(at), second ? steep(at) : bent(at), share);
         }
         EXPECT_LE(stage.cost_J(price, low, high), integral_J + 1e-4) << price << " " << low << " " << high;
       }
+}
+
+/// A long piece is cut, its rates being linear along it: without a slope the stages take what the piece
+/// takes.
+TEST(HeadingStage, StagesOfALongPieceTakeWhatItTakes) {
+  const HeadingRates from{3, Eigen::ArrayXd::LinSpaced(17, 9, -9)},
+      to{3, Eigen::ArrayXd::LinSpaced(17, 2, 4)};
+  const RateTable table{.line = {.s_m = {0, 0.4, 0.4}, .p = {0, 0, 0}, .peak = 1},
+                        .pieces = {{from, to}, {to, to}},
+                        .middle = to,
+                        .bounded = true};
+  const std::vector<HeadingStage> stages = heading_stages(table, 0.4, 0.4, false);
+  EXPECT_GT(stages.size(), 8u) << "more than a few centimeters are no stage";
+  for (const double price : {-1.5, 0.0, 0.8}) {
+    double cost_J = 0, length_m = 0;
+    for (const HeadingStage& stage : stages) cost_J += stage.cost_J(price, 0, 0), length_m += stage.length_m;
+    EXPECT_NEAR(length_m, 0.4, 1e-12);
+    EXPECT_NEAR(cost_J, 0.2 * (from(price) + to(price)), 1e-9) << price;
+  }
 }
 
 TEST(HeadingBound, NoMotionBetweenItsPosesTakesLess) {
@@ -192,8 +211,8 @@ TEST(HeadingBound, DependsOnTheHeadingsRelativeToTheLine) {
     const HeadingEnds ends{{1.2 * std::cos(course), 1.2 * std::sin(course)}, course + 1.7, course - 0.6};
     return heading_bound(turning.table, ends, 1.2, 1.2, kNoLimit);
   };
-  EXPECT_NEAR(at(37), at(0), 0.1);
-  EXPECT_NEAR(at(-160), at(0), 0.1);
+  EXPECT_NEAR(at(37), at(0), 1e-6);
+  EXPECT_NEAR(at(-160), at(0), 1e-6);
 }
 
 /// Mistakes in the bound, each of which some motion made for it must reveal.

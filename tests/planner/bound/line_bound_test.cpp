@@ -106,7 +106,7 @@ TEST(LineBound, IsCloseToTheStraightLine) {
     ASSERT_TRUE(line.profile);
     const double bound_J = line_bound(form_of(robot), way_m, 0.0).energy_J;
     EXPECT_LE(bound_J, line.summary.lower_bound_J) << way_m;
-    EXPECT_GE(bound_J, line.summary.lower_bound_J - 1.3) << way_m;
+    EXPECT_GE(bound_J, line.summary.lower_bound_J - 1.0) << way_m;
   }
 }
 
