@@ -17,25 +17,19 @@ const char* visibility_name(Visibility visibility) {
   return visibility == Visibility::seen ? "seen" : visibility == Visibility::weak ? "weak" : "unseen";
 }
 
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-}
-
+/// Numbers that are not finite become null.
 nlohmann::ordered_json parameters_json(const CalibrationResult& result) {
   auto list = nlohmann::ordered_json::array();
-  for (const CalibratedParameter& p : result.parameters) {
-    const bool known = p.visibility != Visibility::unseen;
-    const auto known_number = [&](double value) { return number_or_null(known ? value : std::nan("")); };
+  for (const CalibratedParameter& p : result.parameters)
     list.push_back({{"name", p.name},
                     {"unit", p.unit},
                     {"nominal", p.nominal},
                     {"value", p.value},
-                    {"standard_deviation", known_number(p.standard_deviation)},
-                    {"interval_95", {known_number(p.interval_95[0]), known_number(p.interval_95[1])}},
+                    {"standard_deviation", p.standard_deviation},
+                    {"interval_95", p.interval_95},
                     {"effective_runs", p.effective_runs},
                     {"visibility", visibility_name(p.visibility)},
                     {"note", p.note}});
-  }
   return list;
 }
 

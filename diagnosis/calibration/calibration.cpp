@@ -144,8 +144,9 @@ std::vector<WrittenKey> written_keys() {
 
 void hold(CalibratedParameter& parameter, const std::string& why) {
   parameter.value = parameter.nominal;
-  parameter.standard_deviation = parameter.effective_runs = 0;
-  parameter.interval_95 = {parameter.nominal, parameter.nominal};
+  parameter.effective_runs = 0;
+  parameter.standard_deviation = std::nan("");
+  parameter.interval_95.fill(parameter.standard_deviation);
   parameter.visibility = Visibility::unseen;
   parameter.note = why;
 }

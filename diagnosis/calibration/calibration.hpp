@@ -26,8 +26,8 @@ struct CalibratedParameter {
   std::string unit{};
   double nominal{};                     ///< value of the robot file
   double value{};                       ///< calibrated value; nominal where unseen
-  double standard_deviation{};          ///< from run-level resampling; 0 where unseen
-  std::array<double, 2> interval_95{};  ///< value +/- Student's t times the deviation
+  double standard_deviation{};          ///< from run-level resampling; NaN where unseen
+  std::array<double, 2> interval_95{};  ///< value +/- Student's t times the deviation; NaN likewise
   double effective_runs{};              ///< effective number of runs that carry the information
   Visibility visibility{Visibility::unseen};
   std::string note{};  ///< why the parameter is unseen, or what its value depends on

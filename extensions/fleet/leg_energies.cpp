@@ -1,6 +1,5 @@
 #include "extensions/fleet/leg_energies.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "model/watt_hours.hpp"
@@ -40,8 +39,6 @@ double relative_sigma(const Plan& plan) {
   return plan.energy_sigma_J && energy_J > 0 ? *plan.energy_sigma_J / energy_J : 0.0;
 }
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json robot_json(const FleetFloor& floor, std::size_t r) {
   const FleetRobot& robot = floor.fleet.robots[r];
   return {{"name", robot.name},
@@ -49,7 +46,7 @@ Json robot_json(const FleetFloor& floor, std::size_t r) {
           {"start", robot.start},
           {"battery_fraction", robot.battery_fraction},
           {"from_s", robot.from_s},
-          {"to_s", number_or_null(robot.to_s)},
+          {"to_s", robot.to_s},
           {"use_price_J", robot.use_price_J}};
 }
 
@@ -62,7 +59,7 @@ Json mission_json(const FleetFloor& floor, const FleetMission& mission) {
   return {{"name", mission.name},
           {"stops", stops},
           {"ready_s", mission.ready_s},
-          {"due_s", number_or_null(mission.due_s)},
+          {"due_s", mission.due_s},
           {"late_price_W", mission.late_price_W},
           {"robots", robots}};
 }

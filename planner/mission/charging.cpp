@@ -6,6 +6,7 @@
 #include "model/battery_charge.hpp"
 #include "model/battery_power.hpp"
 #include "model/watt_hours.hpp"
+#include "planner/mission/mission_time.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
@@ -28,14 +29,21 @@ bool touches_reserve(const Plan& plan) {
 
 bool between_stations(const LegRequest& leg) { return !leg.to.empty() && !leg.path && !leg.motion; }
 
-/// Energy of a way between two stops, by the failed plan's joules per metre.
-double way_J(const Plan& failed, const Plant& plant, const Point2& from_m, const Point2& to_m) {
-  double energy_J = 0.0, driven_m = 0.0;
+struct Driving {
+  double energy_J{}, time_s{};
+};
+
+/// A way between two stops, by what the failed plan takes per metre.
+Driving way(const Plan& failed, const Plant& plant, const Point2& from_m, const Point2& to_m) {
+  Driving all;
+  double driven_m = 0.0;
   for (const LegPlan& planned : failed.legs) {
-    energy_J += planned.energy.total_J() - plant.robot.power.standby_W * planned.dwell_s;
+    all.energy_J += planned.energy.total_J() - plant.robot.power.standby_W * planned.dwell_s;
+    all.time_s += planned.duration_s;
     driven_m += planned.distance_m;
   }
-  return driven_m > 0 ? energy_J / driven_m * kDetourShare * distance_m(from_m, to_m) : 0.0;
+  const double share = driven_m > 0 ? kDetourShare * distance_m(from_m, to_m) / driven_m : 0.0;
+  return {share * all.energy_J, share * all.time_s};
 }
 
 Point2 place_of(const Station& station) { return {station.x_m, station.y_m}; }
@@ -54,7 +62,7 @@ double charging_s(const MissionRequest& mission, const Plan& failed, const Plant
   const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
   const double missing_J = energy_share_between(battery, before, mission.charging->to_fraction) *
                                kJoulesPerWh * battery.capacity_Wh +
-                           way_J(failed, plant, place_before(mission, leg), place_of(charger));
+                           way(failed, plant, place_before(mission, leg), place_of(charger)).energy_J;
   const double power_W = charger.charger_W - plant.robot.power.standby_W;
   const double stored_W = stored_power_W(battery, before, power_W);
   return stored_W > 0 ? std::max(0.0, missing_J) / stored_W : kNoLimit;
@@ -75,11 +83,11 @@ MissionRequest with_stop(const MissionRequest& mission, std::size_t leg, const s
   return longer;
 }
 
-/// A mission with one more stop, and the energy that the stop adds to it by estimate.
+/// A mission with one more stop, and what the stop adds to its cost by estimate.
 struct Candidate {
   MissionRequest mission{};
   std::size_t leg{};
-  double extra_J{};
+  double extra{};
 };
 
 /// Missions with one more stop, before one of the legs up to `last`, the latest leg first.
@@ -96,17 +104,19 @@ std::vector<Candidate> with_one_more_stop(const MissionRequest& mission, const P
       const Station& charger = mission.stations.at(name);
       const double dwell_s = charging_s(mission, failed, plant, leg, charger);
       if (!std::isfinite(dwell_s)) continue;
-      const double detour_J = way_J(failed, plant, here_m, place_of(charger)) +
-                              way_J(failed, plant, place_of(charger), goal_m) -
-                              way_J(failed, plant, here_m, goal_m);
-      candidates.push_back(
-          {with_stop(mission, leg, name, dwell_s), leg, detour_J + plant.robot.power.standby_W * dwell_s});
+      const Driving there = way(failed, plant, here_m, place_of(charger)),
+                    on = way(failed, plant, place_of(charger), goal_m),
+                    straight = way(failed, plant, here_m, goal_m);
+      const double extra =
+          cost(there.energy_J + on.energy_J - straight.energy_J + plant.robot.power.standby_W * dwell_s,
+               there.time_s + on.time_s - straight.time_s + dwell_s, mission.objective);
+      candidates.push_back({with_stop(mission, leg, name, dwell_s), leg, extra});
     }
   }
   return candidates;
 }
 
-bool is_cheaper(const Candidate& a, const Candidate& b) { return a.extra_J < b.extra_J; }
+bool is_cheaper(const Candidate& a, const Candidate& b) { return a.extra < b.extra; }
 
 /// Takes the candidates out that are tried together: those near the failing leg, and the few before them that
 /// are cheaper by estimate; the cheapest first. Without such: those before the latest leg that is left.
@@ -116,10 +126,10 @@ std::vector<Candidate> take_group(std::vector<Candidate>& left, std::size_t near
   std::vector<Candidate> group, others;
   for (Candidate& candidate : left) (candidate.leg >= from ? group : others).push_back(std::move(candidate));
   left = std::move(others);
-  const double least_J = std::min_element(group.begin(), group.end(), is_cheaper)->extra_J;
+  const double least = std::min_element(group.begin(), group.end(), is_cheaper)->extra;
   for (std::size_t k = 0; is_first && k < kCheapEarlier && !left.empty(); ++k) {
     const auto cheapest = std::min_element(left.begin(), left.end(), is_cheaper);
-    if (cheapest->extra_J >= least_J) break;
+    if (cheapest->extra >= least) break;
     group.push_back(std::move(*cheapest));
     left.erase(cheapest);
   }
@@ -132,10 +142,11 @@ struct Attempt {
   Plan plan{};
 };
 
-/// The quality of an attempt: without a breach, less energy is better; else a later breach is better.
-std::pair<bool, double> rank(const Plan& plan) {
+/// The quality of an attempt: without a breach, a lower cost is better; else a later breach is better.
+std::pair<bool, double> rank(const Attempt& attempt) {
+  const Plan& plan = attempt.plan;
   return touches_reserve(plan) ? std::pair(false, static_cast<double>(*plan.battery->fails_on_leg))
-                               : std::pair(true, -plan.energy.total_J());
+                               : std::pair(true, -cost(plan, attempt.mission.objective));
 }
 
 /// Adds stops until the battery suffices, and goes back where that leads nowhere.
@@ -159,21 +170,21 @@ class StopSearch {
   /// The best one of these, or one with more stops where one alone is not enough.
   std::optional<Attempt> best_of(const Attempt& from, std::vector<Candidate> candidates, int stops) {
     std::vector<Attempt> attempts;
-    double dear_J = kNoLimit;
+    double dear = kNoLimit;
     if (!budget_) budget_ = kMostStops * static_cast<int>(candidates.size()) + kMostPlans;
     for (Candidate& candidate : candidates) {
-      const double estimate_J = from.plan.energy.total_J() + candidate.extra_J;
-      if (estimate_J > dear_J) break;
+      const double estimate = cost(from.plan, from.mission.objective) + candidate.extra;
+      if (estimate > dear) break;
       if ((*budget_)-- <= 0) break;
       Plan plan = plan_legs_(candidate.mission);
       // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
       const bool further =
           touches_reserve(plan) && *plan.battery->fails_on_leg > *from.plan.battery->fails_on_leg + 1;
-      if (is_driven(plan)) dear_J = std::min(dear_J, kDear * estimate_J);
+      if (is_driven(plan)) dear = std::min(dear, kDear * estimate);
       if (is_driven(plan) || further) attempts.push_back({std::move(candidate.mission), std::move(plan)});
     }
     std::stable_sort(attempts.begin(), attempts.end(),
-                     [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });
+                     [](const Attempt& a, const Attempt& b) { return rank(a) > rank(b); });
     for (Attempt& attempt : attempts) {
       if (is_driven(attempt.plan)) return std::optional(std::move(attempt));
       if (auto found = beyond(attempt, stops + 1)) return found;

@@ -171,9 +171,13 @@ double lowest_price_W(const Objective& objective) {
   return 0.0;
 }
 
-double cost(const Plan& plan, const Objective& objective) {
+double cost(double energy_J, double time_s, const Objective& objective) {
   const double floor_W = lowest_price_W(objective);
-  return std::isinf(floor_W) ? plan.duration_s : plan.energy.total_J() + floor_W * plan.duration_s;
+  return std::isinf(floor_W) ? time_s : energy_J + floor_W * time_s;
+}
+
+double cost(const Plan& plan, const Objective& objective) {
+  return cost(plan.energy.total_J(), plan.duration_s, objective);
 }
 
 TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,

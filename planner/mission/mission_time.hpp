@@ -12,8 +12,9 @@ namespace joulepath {
 /// The price of a second without a binding deadline (W, beyond standby); infinite for minimum time.
 [[nodiscard]] double lowest_price_W(const Objective& objective);
 
-/// What a plan costs (J) by its objective: its energy, with its time at the price of a second; its time (s)
-/// alone for minimum time.
+/// The cost (J) by an objective: the energy, with the time at the price of a second; the time (s) alone for
+/// minimum time.
+[[nodiscard]] double cost(double energy_J, double time_s, const Objective& objective);
 [[nodiscard]] double cost(const Plan& plan, const Objective& objective);
 
 /// Times of all legs: fixed durations as given, all others at equal prices within the deadlines. If windings

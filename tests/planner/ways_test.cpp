@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "planner/accounts/battery_account.hpp"
 #include "planner/legs/on_ways.hpp"
 #include "planner/mission/mission.hpp"
+#include "planner/mission/mission_time.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/nomad.hpp"
@@ -396,6 +398,35 @@ TEST(Charging, TheChargeDoesNotFallAtAChargerThatFeedsTheRobot) {
       EXPECT_GE(stay[2], stay[1] + (none[2] - none[1]) - 1e-9) << charger_W;
       EXPECT_EQ(stay[0] > 0.6, charging && charger_W > 10) << charger_W;
     }
+}
+
+/// A weak charger on the way and a strong one aside: whatever the objective, the choice costs no more than
+/// either one alone.
+TEST(Charging, TheObjectiveChoosesTheCharger) {
+  Robot robot = testing::nomad();
+  robot.battery.capacity_Wh = 1.0;
+  PlanOptions options = kCoarse;
+  options.steps.corners = options.steps.refinement = false;
+  std::set<std::string> chosen;
+  for (const Objective& objective :
+       {Objective{.minimize = Objective::Minimize::energy}, Objective{.minimize = Objective::Minimize::time},
+        Objective{.minimize = Objective::Minimize::energy_and_time, .time_value_W = 100}}) {
+    MissionRequest mission = round_of_three();
+    mission.objective = objective;
+    mission.start.battery_fraction = robot.battery.reserve_fraction + 0.25;
+    mission.stations["dock"].charger_W = 100;
+    mission.stations["aside"] = {.x_m = 22, .y_m = 22, .charger_W = 2000};
+    mission.charging = ChargingRequest{.stations = {"dock", "aside"}, .to_fraction = 0.9};
+    const double both = cost(plan_of(mission, options, robot), objective);
+    for (const std::string charger : {"dock", "aside"}) {
+      mission.charging->stations = {charger};
+      const Plan plan = plan_of(mission, options, robot);
+      ASSERT_LE(plan.status, SolveStatus::feasible) << charger << ": " << plan.message;
+      EXPECT_LE(both, cost(plan, objective) * (1 + 1e-6)) << charger;
+      if (both >= cost(plan, objective) * (1 - 1e-6)) chosen.insert(charger);
+    }
+  }
+  EXPECT_EQ(chosen.size(), 2u) << "not every objective takes the same one";
 }
 
 /// Energy that comes back to a full battery is lost.

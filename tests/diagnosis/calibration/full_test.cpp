@@ -97,6 +97,7 @@ TEST(FullCalibration, HoldsParametersThatConstantSpeedsDoNotDetermine) {
                            "wheel_axle_inertia_kg_m2", "chassis_yaw_inertia_kg_m2"}) {
     EXPECT_EQ(parameter(result, name).visibility, Visibility::unseen) << name;
     EXPECT_EQ(parameter(result, name).value, parameter(result, name).nominal) << name;
+    EXPECT_TRUE(std::isnan(parameter(result, name).interval_95[0])) << name;
     EXPECT_FALSE(parameter(result, name).note.empty()) << name;
   }
   EXPECT_EQ(parameter(result, "friction_torque_left_Nm").visibility, Visibility::seen);
