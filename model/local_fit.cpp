@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/median.hpp"
+
 namespace joulepath {
 
 LocalFit fit_locally(const std::vector<double>& time_s, const std::vector<double>& values, double reach_s) {
@@ -42,9 +44,8 @@ double noise_of(const std::vector<double>& values) {
   std::vector<double> size;
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
     size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return *middle / 0.6745 / std::sqrt(6.0);  // second differences of white noise have 6 times its variance
+  return upper_median(size) / 0.6745 /
+         std::sqrt(6.0);  // second differences of white noise have 6 times its variance
 }
 
 }  // namespace joulepath

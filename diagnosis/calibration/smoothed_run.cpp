@@ -7,6 +7,7 @@
 
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
+#include "model/median.hpp"
 
 namespace joulepath::calibration {
 namespace {
@@ -40,9 +41,7 @@ Sided<std::vector<double>> wheel_speeds(const Trajectory& log, const Geometry& g
 double median_period_s(const std::vector<double>& time_s) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < time_s.size(); ++i) periods.push_back(time_s[i] - time_s[i - 1]);
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return upper_median(periods);
 }
 
 /// Samples [first, last) of a channel at even steps, unchanged where the log's steps are even.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/assert.hpp"
+#include "model/median.hpp"
 
 namespace joulepath::calibration {
 namespace {
@@ -61,9 +62,7 @@ double white_noise_deviation(const std::vector<double>& samples) {
   for (std::size_t i = 2; i + 2 < samples.size(); ++i)
     differences.push_back(
         std::abs(samples[i - 2] - 4 * samples[i - 1] + 6 * samples[i] - 4 * samples[i + 1] + samples[i + 2]));
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return 1.4826 * *middle / std::sqrt(70.0);
+  return 1.4826 * upper_median(differences) / std::sqrt(70.0);
 }
 
 }  // namespace joulepath::calibration

@@ -11,6 +11,7 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/local_fit.hpp"
 #include "model/log_columns.hpp"
+#include "model/median.hpp"
 #include "model/printable.hpp"
 // Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
@@ -48,9 +49,7 @@ std::optional<double> noise_ratio(const NoiseOfRuns& noise, std::size_t run, con
     if (const auto at = noise[r].find(column); r != run && at != noise[r].end())
       others.push_back(at->second.noise), size = std::max(size, at->second.size);
   if (own == noise[run].end() || others.size() + 1 < kLeastRunsToName) return {};
-  const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
-  std::ranges::nth_element(others, middle);
-  const double most = std::ranges::max(others), median = *middle;
+  const double most = std::ranges::max(others), median = upper_median(others);
   if (median < std::max(kLeastSensorNoise, kRounded * size) || own->second.noise < kNoiseApart * most)
     return {};
   return own->second.noise / median;

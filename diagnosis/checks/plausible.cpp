@@ -8,6 +8,7 @@
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
+#include "model/median.hpp"
 #include "model/printable.hpp"
 
 namespace joulepath {
@@ -53,9 +54,7 @@ double median_of_long_steps(const std::vector<double>& time_s) {
   if (std::ranges::adjacent_find(time_s, is_long) == time_s.end()) return 0.0;
   std::vector<double> steps;
   for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(steps);
 }
 
 void check_time(const Run& run, Findings& findings) {

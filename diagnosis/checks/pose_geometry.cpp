@@ -9,6 +9,7 @@
 #include "diagnosis/checks/small_fit.hpp"
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/median.hpp"
 #include "model/plant.hpp"
 #include "model/printable.hpp"
 
@@ -55,10 +56,8 @@ bool are_held(const Rows& rows, const RunSignals& run) {
   Rows steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(rows[k] - rows[k - 1]);
   if (steps.empty()) return false;
-  const auto middle = steps.begin() + std::ssize(steps) / 2;
-  std::ranges::nth_element(steps, middle);
-  return *middle > 1 &&
-         static_cast<double>(*middle) * run.log_period_s > kBlurredReadings * run.kernel_sigma_s;
+  const std::size_t median = upper_median(steps);
+  return median > 1 && static_cast<double>(median) * run.log_period_s > kBlurredReadings * run.kernel_sigma_s;
 }
 
 /// The run at the rows of its pose's readings: the poses as logged, the wheels between the samples around.
@@ -199,8 +198,7 @@ struct Factor {
 double dissent_of(const Pieces& pieces, const std::array<double, 4>& fit) {
   std::vector<double> rates;
   for (const Piece& piece : pieces) rates.push_back(piece.rate());
-  const auto middle = rates.begin() + std::ssize(rates) / 2;
-  std::ranges::nth_element(rates, middle);
+  const double median = upper_median(rates);
   struct Part {
     double wheels{}, pose{};
     std::size_t count{};
@@ -209,7 +207,7 @@ double dissent_of(const Pieces& pieces, const std::array<double, 4>& fit) {
   for (const Piece& piece : pieces) {
     double added = 0;
     for (int k = 1; k < 4; ++k) added += fit[static_cast<std::size_t>(k)] * piece.wheels[k];
-    const std::size_t is_fast = piece.rate() > *middle ? 1 : 0;
+    const std::size_t is_fast = piece.rate() > median ? 1 : 0;
     for (Part* part : {&parts[{true, piece.run}], &parts[{false, is_fast}]})
       part->wheels += piece.wheels[0], part->pose += piece.pose - added, ++part->count;
   }

@@ -39,6 +39,10 @@ Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, c
 /// Of a derivative of sixth order over whole samples, for one, two and three samples on either side.
 constexpr std::array<double, 3> kSlopeWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
 
+/// Differences by an amplitude, in typical sizes. A state that lags by its strength (an inverse one) is of
+/// second order in it; its column is that of the same law's nuisance, whose size is far smaller.
+constexpr double kAmplitudeStep = 0.5, kLaggingStep = 0.05;
+
 constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 
 /// A variable of kFormVariables, scaled to [-1, 1].
@@ -86,9 +90,12 @@ class Differencer {
         base_(base),
         point_(model_point(robot, nuisances, state)) {}
 
+  /// Tires creep, or do not: a difference towards a negative creep would be another column than that of an
+  /// effect of the same law, and the two of opposite signs a filter of the wheels' noise.
   Eigen::MatrixXd nuisance(std::size_t k, double step) const {
     if (is_of_clocks(nuisances_[k])) return of_clock(nuisances_[k].key);
-    return difference(signals_, point_, base_, -step, step, [&](double change) {
+    const bool one_sided = nuisances_[k].key == kCreepNuisance && state_.nuisance_fraction[k] < step;
+    return difference(signals_, point_, base_, one_sided ? 0.0 : -step, step, [&](double change) {
       ModelState changed = state_;
       changed.nuisance_fraction[k] += change;
       return at(changed);
@@ -253,7 +260,8 @@ AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate
   AmplitudeStep step{.value = std::vector<double>(candidate.amplitude.size(), 0.0)};
   std::size_t index;
   if (is_active(candidate, state, index)) step.value = state.effects[index].amplitude;
-  step.high = candidate.step[part] * 0.5;
+  const bool lags = candidate.effect().strength().role == ParameterRole::inverse_strength;
+  step.high = candidate.step[part] * (lags ? kLaggingStep : kAmplitudeStep);
   step.low = candidate.nonnegative && step.value[part] < step.high ? 0.0 : -step.high;
   return step;
 }

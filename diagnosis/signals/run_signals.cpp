@@ -14,6 +14,7 @@
 #include "model/kinematics.hpp"
 #include "model/limit_table.hpp"
 #include "model/local_fit.hpp"
+#include "model/median.hpp"
 #include "model/motor.hpp"
 
 namespace joulepath {
@@ -31,9 +32,7 @@ struct UniformLog {
 UniformLog uniform_grid(const Samples& time_s) {
   Samples steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  UniformLog grid{.time_s = time_s, .period_s = *middle, .resampled = false};
+  UniformLog grid{.time_s = time_s, .period_s = upper_median(steps), .resampled = false};
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
     grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > kUnevenPeriod * grid.period_s;
   if (!grid.resampled) return grid;
@@ -222,8 +221,8 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
   const SmoothingKernel& kernel = thinner.kernel();
   Sided<Eigen::VectorXd> rate = thinner.fine(wheels, kernel.slope_weight),
                          jerk = thinner.fine(wheels, kernel.curvature_weight);
-  remove_acceleration_noise(rate, thinner.third_difference_gain(kernel.slope_weight),
-                            thinner.fine_period_s());
+  remove_acceleration_noise(rate, thinner.third_difference_gain(kernel.slope_weight), thinner.fine_period_s(),
+                            thinner.sigma_s());
   remove_jerk_noise(jerk, thinner.third_difference_gain(kernel.curvature_weight));
   for (Side side : kSides) {
     signals.wheel_acceleration_rad_s2[side] = thinner.thinned(rate[side]);
@@ -288,9 +287,7 @@ double reading_period_s(const Samples& channel, double log_period_s) {
     last = i;
   }
   if (steps.empty()) return log_period_s;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return static_cast<double>(*middle) * log_period_s;
+  return static_cast<double>(upper_median(steps)) * log_period_s;
 }
 
 /// Below this current the dead band of a driver hides the winding: less than the friction current.
@@ -423,7 +420,7 @@ SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOpt
   const Samples& weights = thinner.kernel().slope_weight;
   Sided<Eigen::VectorXd> rate = thinner.fine(wheels, weights);
   SmoothedNoise noise{.accelerations = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
-                                                                 thinner.fine_period_s()),
+                                                                 thinner.fine_period_s(), thinner.sigma_s()),
                       .kernel_sigma_s = thinner.sigma_s()};
   const double gain = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
   const auto limit = [&](double other, NoisySquares& squares) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numeric>
 
+#include "model/median.hpp"
+
 // Design: docs/decisions/0602-bags.md
 namespace joulepath {
 namespace {
@@ -38,9 +40,7 @@ bool other_clock(const TopicSamples& samples) {
 double median_lag_s(const TopicSamples& samples) {
   std::vector<double> lags;
   each_lag(samples, [&](double lag_s) { lags.push_back(lag_s); });
-  const auto middle = lags.begin() + static_cast<std::ptrdiff_t>(lags.size() / 2);
-  std::nth_element(lags.begin(), middle, lags.end());
-  return *middle;
+  return upper_median(lags);
 }
 
 class TableOfSamples {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "extensions/nav2/corner_table.hpp"
+#include "model/median.hpp"
 #include "planner/legs/stretch.hpp"
 #include "planner/motion/motion_energy.hpp"
 
@@ -49,9 +50,7 @@ class GraphPricer {
       for (std::size_t i = 0; i + 1 < line.size(); ++i) lengths.push_back(distance_m(line[i], line[i + 1]));
     }
     if (lengths.empty()) return 5.0;
-    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
-                     lengths.end());
-    return std::max(0.5, lengths[lengths.size() / 2]);
+    return std::max(0.5, upper_median(std::move(lengths)));
   }
 
   /// Cost of an edge driven at constant speed along straight lines, with its corners.

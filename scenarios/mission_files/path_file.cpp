@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "model/median.hpp"
 #include "model/printable.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/pose_path.hpp"
@@ -118,10 +119,9 @@ void note_far_points(const std::vector<Pose>& points, std::vector<std::string>* 
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     apart_m.push_back(std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m));
   if (apart_m.size() < 2 || notes == nullptr) return;
-  const auto middle = apart_m.begin() + static_cast<std::ptrdiff_t>(apart_m.size() / 2);
-  std::ranges::nth_element(apart_m, middle);
-  if (*middle >= kFarPoints_m)
-    notes->push_back("points of the path are " + four_digits(*middle) +
+  const double median = upper_median(apart_m);
+  if (median >= kFarPoints_m)
+    notes->push_back("points of the path are " + four_digits(median) +
                      " m apart (median): are the coordinates in cm, or in mm?");
 }
 
