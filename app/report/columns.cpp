@@ -3,43 +3,15 @@
 #include <algorithm>
 #include <set>
 
+#include "model/log_columns.hpp"
+
 namespace joulepath::report {
-namespace {
 
-void put(Columns& columns, const std::string& name, const std::vector<double>& values) {
-  if (!values.empty()) columns[name] = values;
-}
-
-void put(Columns& columns, const std::string& stem, const std::string& unit,
-         const Sided<std::vector<double>>& values) {
-  put(columns, stem + "_left" + unit, values.left);
-  put(columns, stem + "_right" + unit, values.right);
-}
-
-}  // namespace
-
-Columns columns_of(const Trajectory& t) {
+Columns columns_of(const Trajectory& trajectory) {
   Columns columns;
-  put(columns, "time_s", t.time_s);
-  put(columns, "wheel_speed", "_rad_s", t.wheel_speed_rad_s);
-  put(columns, "linear_speed_m_s", t.linear_speed_m_s);
-  put(columns, "angular_speed_rad_s", t.angular_speed_rad_s);
-  put(columns, "motor_voltage", "_V", t.motor_voltage_V);
-  put(columns, "motor_current", "_A", t.motor_current_A);
-  put(columns, "motor_power", "_W", t.motor_power_W);
-  put(columns, "battery_voltage_V", t.battery_voltage_V);
-  put(columns, "battery_current_A", t.battery_current_A);
-  put(columns, "position_x_m", t.position_x_m);
-  put(columns, "position_y_m", t.position_y_m);
-  put(columns, "heading_rad", t.heading_rad);
-  put(columns, "payload_kg", t.payload_kg);
-  put(columns, "arc_length_m", t.arc_length_m);
-  put(columns, "linear_acceleration_m_s2", t.linear_acceleration_m_s2);
-  put(columns, "curvature_per_m", t.curvature_per_m);
-  put(columns, "wheel_torque", "_Nm", t.wheel_torque_Nm);
-  put(columns, "battery_power_W", t.battery_power_W);
-  put(columns, "energy_J", t.energy_J);
-  put(columns, "leg", t.leg);
+  for (const LogColumn& column : log_columns())
+    if (const std::vector<double>& values = column.of(trajectory); !values.empty())
+      columns[column.name] = values;
   return columns;
 }
 

@@ -15,7 +15,24 @@ constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are evaluated
 /// First steps of a descent's two methods: from a sample, and from a known spline.
 constexpr struct Steps { double cma{}, simplex{}; } kFar{0.2, 0.03}, kNear[] = {{0.02, 0.03}, {0.005, 0.005}};
 constexpr double kLongestReaches = 10, kLongestMore_m = 30;  ///< of a spline worth a look
+constexpr double kSlackStep_m = 0.03, kTrust = 0.4;
 constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
+
+/// The least slack along a path: steps of at least 3 cm, so long that the slack on them can hardly be below
+/// the least one so far. In a turn, the outline of a polygon moves farther than its center.
+double least_slack_m(const FootprintChecker& checker, const Path& path) {
+  double least_m = kNoLimit;
+  for (const PathPiece& piece : path.pieces) {
+    const double length = piece_length(piece);
+    for (double s = 0;;) {
+      const double here_m = checker.slack_m(piece_point(piece, s).pose);
+      least_m = std::min(least_m, here_m);
+      if (s >= length) break;
+      s = std::min(length, s + std::max(kSlackStep_m, kTrust * (here_m - least_m)));
+    }
+  }
+  return least_m;
+}
 
 /// Variables: logarithms of the handles, a free goal heading, coordinates of the knots in units of the reach.
 class Search {
@@ -123,7 +140,7 @@ class Search {
     if (!path) return kNoCurve_J;
     // Where no spline is free, nothing else keeps the handles from growing to thousands of kilometers.
     if (path->distance_m() > kLongestReaches * problem_.reach_m() + kLongestMore_m) return kNoCurve_J;
-    const double slack_m = world_.space.checker().least_slack_m(*path);
+    const double slack_m = least_slack_m(world_.space.checker(), *path);
     if (slack_m < 0) return kInTheWay_J * (1 - slack_m);
     const PathScore score =
         score_path(*path, mission_.legs[0], 0, {mission_, world_.world, nullptr, plant_, options_, 0.0});

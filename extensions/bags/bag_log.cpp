@@ -6,7 +6,7 @@
 
 #include "extensions/bags/bag_file.hpp"
 #include "extensions/bags/bag_survey.hpp"
-#include "extensions/bags/byte_reader.hpp"
+#include "extensions/bags/byte_cursor.hpp"
 #include "extensions/bags/field_path.hpp"
 #include "extensions/bags/message_numbers.hpp"
 #include "extensions/bags/topic_samples.hpp"

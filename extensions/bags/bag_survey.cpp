@@ -5,7 +5,7 @@
 #include <iterator>
 #include <memory>
 
-#include "extensions/bags/byte_reader.hpp"
+#include "extensions/bags/byte_cursor.hpp"
 #include "extensions/bags/message_numbers.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/registry.hpp"

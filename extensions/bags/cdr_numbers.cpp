@@ -2,7 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "extensions/bags/byte_reader.hpp"
+#include "extensions/bags/byte_cursor.hpp"
 #include "extensions/bags/field_path.hpp"
 #include "extensions/bags/message_layout.hpp"
 #include "extensions/bags/message_numbers.hpp"
@@ -38,7 +38,7 @@ struct Wanted {
   std::vector<WantedField> fields;
 };
 
-double number_of(ByteReader& in, FieldKind kind) {
+double number_of(ByteCursor& in, FieldKind kind) {
   switch (kind) {
     case FieldKind::int8:
       return in.number<std::int8_t>();
@@ -108,7 +108,7 @@ class CdrNumbers : public MessageNumbers {
   void read(std::string_view data, std::vector<double>& values) override {
     values.assign(static_cast<std::size_t>(slots_), std::numeric_limits<double>::quiet_NaN());
     values_ = &values;
-    ByteReader in = body(data);
+    ByteCursor in = body(data);
     message(in, *layout_, &wanted_, nullptr);
   }
 
@@ -116,7 +116,7 @@ class CdrNumbers : public MessageNumbers {
     std::vector<std::string> names;
     std::vector<double> ignored(static_cast<std::size_t>(slots_));
     values_ = &ignored;
-    ByteReader in = body(data);
+    ByteCursor in = body(data);
     message(in, *layout_, nullptr, nullptr);
     values_ = nullptr;
     for (const std::string_view name : names_) names.emplace_back(name);
@@ -124,8 +124,8 @@ class CdrNumbers : public MessageNumbers {
   }
 
  private:
-  static ByteReader body(std::string_view data) {
-    ByteReader in(data);
+  static ByteCursor body(std::string_view data) {
+    ByteCursor in(data);
     const std::string_view head = in.take(kOrigin);
     if (head[0] != 0 || head[1] != 1) throw BytesEnd();  // CDR, little-endian
     return in;
@@ -143,7 +143,7 @@ class CdrNumbers : public MessageNumbers {
   }
 
   /// `name` becomes the text that names this element of an array.
-  void message(ByteReader& in, const MessageLayout& layout, const Wanted* wanted, std::string_view* name) {
+  void message(ByteCursor& in, const MessageLayout& layout, const Wanted* wanted, std::string_view* name) {
     if (layout.fields.empty()) in.take(1);
     for (std::size_t i = 0; i < layout.fields.size(); ++i) {
       const MessageField& field = layout.fields[i];
@@ -155,7 +155,7 @@ class CdrNumbers : public MessageNumbers {
     }
   }
 
-  void one(ByteReader& in, const MessageField& field, const WantedField* wanted, std::string_view* name) {
+  void one(ByteCursor& in, const MessageField& field, const WantedField* wanted, std::string_view* name) {
     if (field.kind == FieldKind::message) {
       message(in, *field.message, wanted ? wanted->below.get() : nullptr, nullptr);
     } else if (field.kind == FieldKind::text) {
@@ -171,7 +171,7 @@ class CdrNumbers : public MessageNumbers {
     }
   }
 
-  void many(ByteReader& in, const MessageField& field, const WantedField* wanted) {
+  void many(ByteCursor& in, const MessageField& field, const WantedField* wanted) {
     std::size_t count = field.count;
     if (field.shape == MessageField::Shape::sequence) {
       in.align(4, kOrigin);
@@ -185,7 +185,7 @@ class CdrNumbers : public MessageNumbers {
       numbers(in, field, wanted, count);
   }
 
-  void texts(ByteReader& in, const MessageField& field, std::size_t count) {
+  void texts(ByteCursor& in, const MessageField& field, std::size_t count) {
     const bool keep = field.name == kElementNames;
     if (keep) names_.clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -194,7 +194,7 @@ class CdrNumbers : public MessageNumbers {
     }
   }
 
-  void numbers(ByteReader& in, const MessageField& field, const WantedField* wanted, std::size_t count) {
+  void numbers(ByteCursor& in, const MessageField& field, const WantedField* wanted, std::size_t count) {
     if (count == 0) return;
     const std::size_t size = size_of(field.kind);
     in.align(size, kOrigin);
@@ -206,14 +206,14 @@ class CdrNumbers : public MessageNumbers {
       for (std::size_t i = 0; !element.index && i < names_.size(); ++i)
         if (names_[i] == element.name) index = i;
       if (index >= count) continue;
-      ByteReader at(bytes.substr(index * size, size));
+      ByteCursor at(bytes.substr(index * size, size));
       put(element.slot, number_of(at, field.kind));
     }
   }
 
-  void messages(ByteReader& in, const MessageField& field, const WantedField* wanted, std::size_t count) {
+  void messages(ByteCursor& in, const MessageField& field, const WantedField* wanted, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      const ByteReader begin = in;
+      const ByteCursor begin = in;
       std::string_view name;
       const std::size_t before = in.position();
       message(in, *field.message, nullptr, &name);
@@ -221,13 +221,13 @@ class CdrNumbers : public MessageNumbers {
       if (!wanted) continue;
       for (const WantedElement& element : wanted->elements) {
         if (element.index ? *element.index != i : element.name != name) continue;
-        ByteReader again = begin;
+        ByteCursor again = begin;
         message(again, *field.message, element.below.get(), nullptr);
       }
     }
   }
 
-  static std::string_view read_text(ByteReader& in) {
+  static std::string_view read_text(ByteCursor& in) {
     in.align(4, kOrigin);
     std::string_view text = in.text();
     if (!text.empty() && text.back() == '\0') text.remove_suffix(1);

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "extensions/bags/byte_reader.hpp"
+#include "extensions/bags/byte_cursor.hpp"
 #include "extensions/bags/field_path.hpp"
 #include "extensions/bags/message_numbers.hpp"
 #include "scenarios/text/shallow_json.hpp"

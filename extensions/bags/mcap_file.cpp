@@ -9,7 +9,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "extensions/bags/byte_reader.hpp"
+#include "extensions/bags/byte_cursor.hpp"
 #include "extensions/bags/unpacked_bytes.hpp"
 
 // Format: https://mcap.dev/spec, version 0
@@ -92,7 +92,7 @@ class McapReader {
 
   void record(McapRecord kind, std::string_view content) {
     try {
-      ByteReader in(content);
+      ByteCursor in(content);
       if (kind == McapRecord::schema) schema(in);
       if (kind == McapRecord::channel) channel(in);
       if (kind == McapRecord::message) message(in);
@@ -102,7 +102,7 @@ class McapReader {
     }
   }
 
-  void schema(ByteReader& in) {
+  void schema(ByteCursor& in) {
     const auto id = in.number<std::uint16_t>();
     MessageChannel described;
     described.type = in.text();
@@ -111,7 +111,7 @@ class McapReader {
     schemas_[id] = std::move(described);
   }
 
-  void channel(ByteReader& in) {
+  void channel(ByteCursor& in) {
     const auto id = in.number<std::uint16_t>();
     const auto schema_id = in.number<std::uint16_t>();
     const auto described = schemas_.find(schema_id);
@@ -123,7 +123,7 @@ class McapReader {
     on_channel_(channel);
   }
 
-  void message(ByteReader& in) {
+  void message(ByteCursor& in) {
     const auto known = channels_.find(in.number<std::uint16_t>());
     in.number<std::uint32_t>();  // sequence
     TimedMessage message{.log_time_ns = in.number<std::uint64_t>()};
@@ -134,7 +134,7 @@ class McapReader {
     on_message_(message);
   }
 
-  void chunk(ByteReader& in) {
+  void chunk(ByteCursor& in) {
     in.take(16);  // first and last time
     const auto size = in.number<std::uint64_t>();
     const auto check_sum = in.number<std::uint32_t>();
@@ -159,7 +159,7 @@ class McapReader {
   void chunk_records(std::string_view records, std::uint32_t check_sum) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(records.data());
     if (check_sum != 0 && crc32_z(0, bytes, records.size()) != check_sum) throw BytesEnd();
-    ByteReader in(records);
+    ByteCursor in(records);
     while (in.left() > 0) {
       const McapRecord kind{in.number<std::uint8_t>()};
       const std::string_view content = in.take(in.number<std::uint64_t>());

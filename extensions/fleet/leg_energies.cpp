@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kFrontPoints = 3;
 
-MissionRequest leg_mission(const FleetFloor& floor, const LegQuestion& leg) {
+MissionRequest leg_mission(const FleetFloor& floor, const FleetLeg& leg) {
   MissionRequest mission = floor.fleet.floor;
   const Station& start = mission.stations.at(leg.from);
   mission.name = leg.from + " to " + leg.to;
@@ -26,7 +26,7 @@ MissionRequest leg_mission(const FleetFloor& floor, const LegQuestion& leg) {
   return mission;
 }
 
-[[noreturn]] void refuse_leg(const FleetFloor& floor, const LegQuestion& leg, const std::string& why) {
+[[noreturn]] void refuse_leg(const FleetFloor& floor, const FleetLeg& leg, const std::string& why) {
   const ItemMarks& marks = floor.fleet.floor.stations.at(leg.to).marks;
   throw ConfigError({marks.item, marks.path,
                      "no drive from " + leg.from + " with " + floor.types[leg.type].robot_file + ": " + why,
@@ -94,7 +94,7 @@ Json floor_json(const MissionRequest& floor) {
 
 }  // namespace
 
-Plan leg_plan(const FleetFloor& floor, const LegQuestion& leg, const SharedAnswers& answers) {
+Plan leg_plan(const FleetFloor& floor, const FleetLeg& leg, const SharedAnswers& answers) {
   const FleetType& type = floor.types[leg.type];
   const PlanOptions options{.solver = SolverChoice::fast, .baselines = false, .answers = answers};
   Plan plan = plan_mission(leg_mission(floor, leg), type.world, options, type.space.get());
@@ -102,8 +102,7 @@ Plan leg_plan(const FleetFloor& floor, const LegQuestion& leg, const SharedAnswe
   return plan;
 }
 
-std::vector<LegPoint> leg_points(const FleetFloor& floor, const LegQuestion& leg,
-                                 const SharedAnswers& answers) {
+std::vector<LegPoint> leg_points(const FleetFloor& floor, const FleetLeg& leg, const SharedAnswers& answers) {
   if (leg.from == leg.to) return {LegPoint{}};
   const Plan plan = leg_plan(floor, leg, answers);
   const double share = relative_sigma(plan);

@@ -1,6 +1,6 @@
-#include "model/number_text.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "scenarios/export/exports.hpp"
+#include "scenarios/text/csv_table.hpp"
 
 namespace joulepath {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 constexpr double kPlotRate_Hz = 50.0;
 
 /// Signals by PlotJuggler's names: a slash opens a folder of its tree.
-std::vector<std::pair<const char*, const std::vector<double>*>> signals(const Trajectory& motion) {
+CsvColumns signals(const Trajectory& motion) {
   return {{"time_s", &motion.time_s},
           {"pose/x_m", &motion.position_x_m},
           {"pose/y_m", &motion.position_y_m},
@@ -38,16 +38,7 @@ std::vector<std::pair<const char*, const std::vector<double>*>> signals(const Tr
 
 Export export_plotjuggler(const ExportInput& input) {
   const Trajectory motion = plan_trajectory(input.plan, input.plant, input.rate_Hz.value_or(kPlotRate_Hz));
-  const auto columns = signals(motion);
-  std::string text;
-  for (const auto& [name, values] : columns) text += (text.empty() ? "" : ",") + std::string(name);
-  text += '\n';
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      append_number(text, (*columns[c].second)[k]);
-      text += c + 1 < columns.size() ? ',' : '\n';
-    }
-  return {.files = {{input.out_file, std::move(text)}}};
+  return {.files = {{input.out_file, csv_text(signals(motion))}}};
 }
 
 }  // namespace joulepath

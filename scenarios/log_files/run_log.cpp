@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "model/kinematics.hpp"
-#include "model/number_text.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/log_files/log_file.hpp"
@@ -377,26 +376,13 @@ RunLog read_run_log(const std::string& file, const Geometry& geometry) {
   return log;
 }
 
-std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraColumn>& extra) {
-  std::vector<const std::vector<double>*> channels;
-  std::string text;
-  for (const auto& column : log_columns()) {
-    const auto& values = column.of(trajectory);
-    if (values.empty()) continue;
-    text += (channels.empty() ? "" : ",") + column.name;
-    channels.push_back(&values);
-  }
-  for (const ExtraColumn& column : extra) {
-    text += "," + column.name;
-    channels.push_back(column.values);
-  }
-  text += '\n';
-  for (std::size_t row = 0; row < trajectory.size(); ++row)
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      append_number(text, (*channels[i])[row]);
-      text += i + 1 < channels.size() ? ',' : '\n';
-    }
-  return text;
+std::string run_log_text(const Trajectory& trajectory, const CsvColumns& extra) {
+  CsvColumns columns;
+  for (const auto& column : log_columns())
+    if (const auto& values = column.of(trajectory); !values.empty())
+      columns.emplace_back(column.name, &values);
+  columns.insert(columns.end(), extra.begin(), extra.end());
+  return csv_text(columns);
 }
 
 }  // namespace joulepath

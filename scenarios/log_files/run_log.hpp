@@ -7,6 +7,7 @@
 #include "model/robot.hpp"
 #include "scenarios/log_files/log_columns.hpp"
 #include "scenarios/log_files/log_file.hpp"
+#include "scenarios/text/csv_table.hpp"
 #include "scenarios/text/document.hpp"
 
 namespace joulepath {
@@ -31,15 +32,8 @@ struct RunLog {
 /// A log with the format's own column names, without the channels that a part of it lacks.
 [[nodiscard]] RunLog read_run_log(const std::string& file, const Geometry& geometry);
 
-/// A column beside those of a run log.
-struct ExtraColumn {
-  std::string name{};
-  const std::vector<double>* values{};
-};
-
 /// The trajectory as CSV in the run log format: all present channels, then the extra ones, shortest exact
 /// numbers.
-[[nodiscard]] std::string run_log_text(const Trajectory& trajectory,
-                                       const std::vector<ExtraColumn>& extra = {});
+[[nodiscard]] std::string run_log_text(const Trajectory& trajectory, const CsvColumns& extra = {});
 
 }  // namespace joulepath

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/number_text.hpp"
 #include "model/printable.hpp"
 #include "scenarios/text/document.hpp"
 #include "scenarios/text/utc_time.hpp"
@@ -175,6 +176,19 @@ CsvTable parse_csv(std::string_view text, std::string file,
 CsvTable read_csv(const std::string& file, const std::function<bool(const std::string&)>& wanted,
                   const NamedBy& named_by) {
   return parse_csv(read_text_file(file, named_by), file, wanted);
+}
+
+std::string csv_text(const CsvColumns& columns) {
+  std::string text;
+  for (const auto& [name, values] : columns) text += (text.empty() ? "" : ",") + name;
+  text += '\n';
+  const std::size_t rows = columns.empty() ? 0 : columns.front().second->size();
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      append_number(text, (*columns[i].second)[row]);
+      text += i + 1 < columns.size() ? ',' : '\n';
+    }
+  return text;
 }
 
 }  // namespace joulepath

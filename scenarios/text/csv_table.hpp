@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenarios/text/document.hpp"
@@ -31,5 +32,9 @@ struct CsvTable {
                                 const NamedBy& named_by = {});
 [[nodiscard]] CsvTable parse_csv(std::string_view text, std::string file,
                                  const std::function<bool(const std::string&)>& wanted);
+
+/// Columns of numbers, all of one length, as a CSV file with a header.
+using CsvColumns = std::vector<std::pair<std::string, const std::vector<double>*>>;
+[[nodiscard]] std::string csv_text(const CsvColumns& columns);
 
 }  // namespace joulepath

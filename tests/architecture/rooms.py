@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Rooms stand in the order of docs/architecture.md: no include runs upward. The core includes no extension, and an
-extension includes no other one. Heavy libraries stay in their place."""
+extension includes no other one. Heavy libraries stay in their place. No two headers define a type of one name."""
 import pathlib
 import re
 import sys
@@ -51,8 +51,22 @@ def misplaced(path, header):
     return any(header.startswith(start) and not path.startswith(home) for start, home in CONFINED.items())
 
 
+def types_of_one_name(root):
+    """The linker keeps one of two types of one name in a namespace, whichever it meets first."""
+    homes = {}
+    for top in TOPS:
+        for file in sorted((root / top).rglob("*.hpp")):
+            space = ""
+            for line in file.read_text().splitlines():
+                if match := re.match(r"namespace ([\w:]+) \{", line):
+                    space = match[1]
+                elif match := re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: :[^:].*)? \{", line):
+                    homes.setdefault(space + "::" + match[1], set()).add(file.relative_to(root).as_posix())
+    return [f"{name} has two definitions: {', '.join(sorted(files))}" for name, files in homes.items() if len(files) > 1]
+
+
 def main(root):
-    complaints = []
+    complaints = types_of_one_name(root)
     for top in TOPS:
         for file in sorted((root / top).rglob("*.[ch]pp")):
             path = file.relative_to(root).as_posix()
@@ -65,7 +79,7 @@ def main(root):
                 match = re.match(r"#include <([^>]+)>", line)
                 if match and misplaced(path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which has another place")
-    print("\n".join(complaints) or "rooms: no include runs upward")
+    print("\n".join(complaints) or "rooms: no include runs upward, no two types have one name")
     return 1 if complaints else 0
 
 

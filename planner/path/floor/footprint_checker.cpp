@@ -11,7 +11,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSlackStep_m = 0.03;
 constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
 constexpr double kHalfDiagonalPerHalfSide = 1.4142135623730951;
 
@@ -108,22 +107,6 @@ Collision FootprintChecker::collision_at(double s, const Pose& pose, double slac
 Pose FootprintChecker::pose_on(const PathPiece& piece, double s) const {
   const auto* curve = std::get_if<Curve>(&piece);
   return curve ? pose_on(*curve, s) : piece_point(piece, s).pose;
-}
-
-double FootprintChecker::least_slack_m(const Path& path) const {
-  double least_m = std::numeric_limits<double>::infinity();
-  // In a turn, the outline of a polygon moves farther than its center.
-  const double trust = is_disc() ? 1.0 : 0.4;
-  for (const PathPiece& piece : path.pieces) {
-    const double length = piece_length(piece);
-    for (double s = 0;;) {
-      const double here_m = slack_m(pose_on(piece, s));
-      least_m = std::min(least_m, here_m);
-      if (s >= length) break;
-      s = std::min(length, s + std::max(kSlackStep_m, trust * (here_m - least_m)));
-    }
-  }
-  return least_m;
 }
 
 std::optional<Collision> FootprintChecker::pose_collision(const Pose& pose) const {

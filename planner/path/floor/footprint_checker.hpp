@@ -36,9 +36,6 @@ class FootprintChecker {
   [[nodiscard]] Collision collision_at(double s, const Pose& pose, double slack) const;
   /// How far a point of the outline moves at most per unit of a piece's path coordinate.
   [[nodiscard]] double reach_per_s(const PathPiece& piece) const;
-  /// The least slack along a path, for optimizers; first_collision() is exact. Samples are at least 3 cm
-  /// apart, and a step is so long that the slack on it can hardly be below the least slack so far.
-  [[nodiscard]] double least_slack_m(const Path& path) const;
   /// The first place along a curve, or in the sweep of a turn, that is not free. A step is so short that no
   /// point of the outline can reach an obstacle within it, but at least 2 mm (measured at the outline).
   [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;

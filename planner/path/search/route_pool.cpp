@@ -7,8 +7,8 @@
 #include "planner/path/search/lattice.hpp"
 #include "planner/path/search/outline_route.hpp"
 #include "planner/path/search/polyline.hpp"
-#include "planner/path/search/rate_table.hpp"
 #include "planner/path/search/route_cache.hpp"
+#include "planner/path/search/tabulated_cost.hpp"
 
 namespace joulepath {
 namespace {
@@ -136,7 +136,7 @@ class Pool {
   const FreeSpace& floor_;
   bool turns_everywhere_;  ///< the outline, on a way between the ends
   FreeSpace::Cells cells_{FreeSpace::Cells::clear};
-  RateTable table_;
+  TabulatedCost table_;
   TravelCost cost_;
   Lattice lattice_;
   std::vector<PooledRoute> routes_{};

@@ -14,9 +14,9 @@ class BytesEnd : public std::runtime_error {
 };
 
 /// Reads little-endian values from bytes; announced sizes are checked against the data. Throws BytesEnd.
-class ByteReader {
+class ByteCursor {
  public:
-  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  explicit ByteCursor(std::string_view bytes) : bytes_(bytes) {}
 
   [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
   [[nodiscard]] std::size_t position() const { return at_; }

@@ -1,4 +1,4 @@
-#include "planner/path/search/rate_table.hpp"
+#include "planner/path/search/tabulated_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr double kCell_m = 0.25;
 constexpr int kHeadings = 16;
 }  // namespace
 
-RateTable::RateTable(const TravelCost& exact, const ObstacleField::Extent& extent)
+TabulatedCost::TabulatedCost(const TravelCost& exact, const ObstacleField::Extent& extent)
     : exact_(exact), extent_(extent) {
   if (!exact.rate) return;
   columns_ = static_cast<int>((extent.x_max_m - extent.x_min_m) / kCell_m) + 1;
@@ -18,13 +18,13 @@ RateTable::RateTable(const TravelCost& exact, const ObstacleField::Extent& exten
   rates_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) * kHeadings, -1.0F);
 }
 
-TravelCost RateTable::cost() {
+TravelCost TabulatedCost::cost() {
   if (!exact_.rate) return exact_;
   return {[this](double x_m, double y_m, double heading_rad) { return rate(x_m, y_m, heading_rad); },
           exact_.least_rate};
 }
 
-double RateTable::rate(double x_m, double y_m, double heading_rad) {
+double TabulatedCost::rate(double x_m, double y_m, double heading_rad) {
   const int column = std::clamp(static_cast<int>((x_m - extent_.x_min_m) / kCell_m), 0, columns_ - 1);
   const int row = std::clamp(static_cast<int>((y_m - extent_.y_min_m) / kCell_m), 0, rows_ - 1);
   constexpr double kPerHeading = kHeadings / (2 * std::numbers::pi);

@@ -9,11 +9,11 @@ namespace joulepath {
 /// Travel costs tabulated by place and heading, computed on demand: a search queries the same places a
 /// million times, and a rate may take a microsecond. The cost is constant over cells of 0.25 m and 22.5
 /// degrees; the search needs no more, and ways are scored with the exact rate. For one thread.
-class RateTable {
+class TabulatedCost {
  public:
-  RateTable(const TravelCost& exact, const ObstacleField::Extent& extent);
-  RateTable(const RateTable&) = delete;
-  RateTable& operator=(const RateTable&) = delete;
+  TabulatedCost(const TravelCost& exact, const ObstacleField::Extent& extent);
+  TabulatedCost(const TabulatedCost&) = delete;
+  TabulatedCost& operator=(const TabulatedCost&) = delete;
 
   /// A cost that refers to this table, which must outlive it; without a rate it is the exact cost.
   [[nodiscard]] TravelCost cost();
