@@ -1,24 +1,43 @@
 #include "diagnosis/evidence/delay_search.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/numerics/rms.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/local_fit.hpp"
 
 namespace joulepath {
 namespace {
 
-/// Sum of squares that V(t + shift) = a + b i(t + shift) + c q'(t) leaves at best, over `count` samples from
-/// `begin` on. The file's constants may be wrong, and a resistance that is wrong imitates a shift.
-double left_of_winding(const RunSignals& run, Side side, Eigen::Index shift, Eigen::Index begin,
-                       Eigen::Index count, Eigen::Index stride) {
+/// White noise of a wheel's voltage, current and speed, and 1e-6 of their size in a log without.
+Eigen::Array3d noise_of_wheel(const Trajectory& log, Side side) {
+  Eigen::Array3d noise;
+  Eigen::Index k = 0;
+  for (const std::vector<double>* channel :
+       {&log.motor_voltage_V[side], &log.motor_current_A[side], &log.wheel_speed_rad_s[side]})
+    noise[k++] = std::max(
+        {noise_of(*channel), 1e-6 * rms(Eigen::VectorXd::Map(channel->data(), std::ssize(*channel))), 1e-12});
+  return noise;
+}
+
+/// Sum of squares that a + b V(t + shift) + c i(t + shift) + d q'(t) = 0 leaves at best over the noise that
+/// it then has: total least squares, over `count` samples from `begin` on. The file's constants may be wrong,
+/// and a resistance that is wrong imitates a shift: they are free. Where V alone had noise, a resistance that
+/// is too small would take in less of the current's, and a shift with it would leave less than none.
+double left_of_winding(const RunSignals& run, Side side, const Eigen::Array3d& noise, Eigen::Index shift,
+                       Eigen::Index begin, Eigen::Index count, Eigen::Index stride) {
   const auto samples = [&](Eigen::Index from) { return Eigen::seqN(from, count, stride); };
-  const Eigen::VectorXd volts = run.motor_voltage_V[side](samples(begin + shift));
   Eigen::MatrixX3d known(count, 3);
-  known << Eigen::VectorXd::Ones(count), run.motor_current_A[side](samples(begin + shift)),
-      run.wheel_speed_rad_s[side](samples(begin));
-  return (volts - known * known.colPivHouseholderQr().solve(volts)).squaredNorm();
+  known << run.motor_voltage_V[side](samples(begin + shift)),
+      run.motor_current_A[side](samples(begin + shift)), run.wheel_speed_rad_s[side](samples(begin));
+  known.rowwise() -= known.colwise().mean();
+  known.array().rowwise() /= noise.transpose();
+  const Eigen::Matrix3d gram = known.transpose() * known;
+  return std::max(
+      0.0,
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues().minCoeff());
 }
 
 }  // namespace
@@ -33,18 +52,25 @@ double rough_channel_delay_s(const LogSet& logs) {
   const int last = static_cast<int>(std::ceil(kLatestReading_s / period_s));
   const int stride = std::max(1, static_cast<int>(std::lround(kDelayStep_s / period_s)));
   const int zero_first = -(std::abs(first) / stride) * stride;
+  std::vector<Sided<Eigen::Array3d>> noise;
+  for (const RunSignals& run : signals) {
+    const Trajectory& log = logs.dataset->runs[run.run_index].log;
+    noise.push_back({noise_of_wheel(log, Side::left), noise_of_wheel(log, Side::right)});
+  }
   double best = 0, at_zero = 0;
   int best_shift = 0;
   bool any = false;
   for (int shift = zero_first; shift <= last; shift += stride) {
     double left_over = 0;
-    for (const RunSignals& run : signals)
+    for (std::size_t r = 0; r < signals.size(); ++r)
       for (Side side : kSides) {
+        const RunSignals& run = signals[r];
         const Eigen::Index begin = std::max(0, -zero_first), end = run.size() - std::max(0, last);
         if (run.motor_voltage_V[side].size() != run.size() ||
             run.motor_current_A[side].size() != run.size() || end <= begin)
           continue;
-        left_over += left_of_winding(run, side, shift, begin, (end - begin + stride - 1) / stride, stride);
+        left_over += left_of_winding(run, side, noise[r][side], shift, begin,
+                                     (end - begin + stride - 1) / stride, stride);
         any = true;
       }
     if (shift == 0) at_zero = left_over;
