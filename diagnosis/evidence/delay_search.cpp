@@ -7,6 +7,7 @@
 #include "diagnosis/numerics/rms.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/local_fit.hpp"
+// Method: [GolubVanLoan1980]
 
 namespace joulepath {
 namespace {
