@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/median.hpp"
 
@@ -44,8 +45,8 @@ double noise_of(const std::vector<double>& values) {
   std::vector<double> size;
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
     size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
-  return upper_median(size) / 0.6745 /
-         std::sqrt(6.0);  // second differences of white noise have 6 times its variance
+  // Second differences of white noise have 6 times its variance.
+  return upper_median(std::move(size)) / 0.6745 / std::sqrt(6.0);
 }
 
 }  // namespace joulepath

@@ -15,7 +15,7 @@ constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are evaluated
 /// First steps of a descent's two methods: from a sample, and from a known spline.
 constexpr struct Steps { double cma{}, simplex{}; } kFar{0.2, 0.03}, kNear[] = {{0.02, 0.03}, {0.005, 0.005}};
 constexpr double kLongestReaches = 10, kLongestMore_m = 30;  ///< of a spline worth a look
-constexpr double kSlackStep_m = 0.03, kTrust = 0.4;
+constexpr double kSlackStep_m = 0.03;
 constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
 
 /// The least slack along a path: steps of at least 3 cm, so long that the slack on them can hardly be below
@@ -23,12 +23,12 @@ constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
 double least_slack_m(const FootprintChecker& checker, const Path& path) {
   double least_m = kNoLimit;
   for (const PathPiece& piece : path.pieces) {
-    const double length = piece_length(piece);
+    const double length = piece_length(piece), trust = checker.is_disc() ? 1.0 : 0.4;
     for (double s = 0;;) {
       const double here_m = checker.slack_m(piece_point(piece, s).pose);
       least_m = std::min(least_m, here_m);
       if (s >= length) break;
-      s = std::min(length, s + std::max(kSlackStep_m, kTrust * (here_m - least_m)));
+      s = std::min(length, s + std::max(kSlackStep_m, trust * (here_m - least_m)));
     }
   }
   return least_m;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
@@ -41,7 +42,7 @@ Sided<std::vector<double>> wheel_speeds(const Trajectory& log, const Geometry& g
 double median_period_s(const std::vector<double>& time_s) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < time_s.size(); ++i) periods.push_back(time_s[i] - time_s[i - 1]);
-  return upper_median(periods);
+  return upper_median(std::move(periods));
 }
 
 /// Samples [first, last) of a channel at even steps, unchanged where the log's steps are even.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "model/assert.hpp"
 #include "model/median.hpp"
@@ -62,7 +63,7 @@ double white_noise_deviation(const std::vector<double>& samples) {
   for (std::size_t i = 2; i + 2 < samples.size(); ++i)
     differences.push_back(
         std::abs(samples[i - 2] - 4 * samples[i - 1] + 6 * samples[i] - 4 * samples[i + 1] + samples[i + 2]));
-  return 1.4826 * upper_median(differences) / std::sqrt(70.0);
+  return 1.4826 * upper_median(std::move(differences)) / std::sqrt(70.0);
 }
 
 }  // namespace joulepath::calibration

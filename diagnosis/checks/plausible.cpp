@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/checks/column_bounds.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -54,7 +55,7 @@ double median_of_long_steps(const std::vector<double>& time_s) {
   if (std::ranges::adjacent_find(time_s, is_long) == time_s.end()) return 0.0;
   std::vector<double> steps;
   for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
-  return upper_median(steps);
+  return upper_median(std::move(steps));
 }
 
 void check_time(const Run& run, Findings& findings) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "diagnosis/checks/small_fit.hpp"
 #include "diagnosis/numerics/smoothing.hpp"
@@ -56,7 +57,7 @@ bool are_held(const Rows& rows, const RunSignals& run) {
   Rows steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(rows[k] - rows[k - 1]);
   if (steps.empty()) return false;
-  const std::size_t median = upper_median(steps);
+  const std::size_t median = upper_median(std::move(steps));
   return median > 1 && static_cast<double>(median) * run.log_period_s > kBlurredReadings * run.kernel_sigma_s;
 }
 
@@ -198,7 +199,7 @@ struct Factor {
 double dissent_of(const Pieces& pieces, const std::array<double, 4>& fit) {
   std::vector<double> rates;
   for (const Piece& piece : pieces) rates.push_back(piece.rate());
-  const double median = upper_median(rates);
+  const double median = upper_median(std::move(rates));
   struct Part {
     double wheels{}, pose{};
     std::size_t count{};

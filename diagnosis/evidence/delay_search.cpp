@@ -1,6 +1,6 @@
 #include "diagnosis/evidence/delay_search.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -12,15 +12,15 @@
 namespace joulepath {
 namespace {
 
-/// White noise of a wheel's voltage, current and speed, and 1e-6 of their size in a log without.
-Eigen::Array3d noise_of_wheel(const Trajectory& log, Side side) {
-  Eigen::Array3d noise;
-  Eigen::Index k = 0;
-  for (const std::vector<double>* channel :
-       {&log.motor_voltage_V[side], &log.motor_current_A[side], &log.wheel_speed_rad_s[side]})
-    noise[k++] = std::max(
-        {noise_of(*channel), 1e-6 * rms(Eigen::VectorXd::Map(channel->data(), std::ssize(*channel))), 1e-12});
-  return noise;
+/// White noise of a wheel's voltage, current and speed as logged, and 1e-6 of their size in a log without.
+/// Speeds of the body alone count as exact.
+Eigen::Array3d noise_of_wheel(const Trajectory& log, const RunSignals& run, Side side) {
+  const auto of = [](const std::vector<double>& channel, const Eigen::VectorXd& smoothed) {
+    return std::max({noise_of(channel), 1e-6 * rms(smoothed), 1e-12});
+  };
+  return {of(log.motor_voltage_V[side], run.motor_voltage_V[side]),
+          of(log.motor_current_A[side], run.motor_current_A[side]),
+          of(log.wheel_speed_rad_s[side], run.wheel_speed_rad_s[side])};
 }
 
 /// Sum of squares that a + b V(t + shift) + c i(t + shift) + d q'(t) = 0 leaves at best over the noise that
@@ -35,10 +35,7 @@ double left_of_winding(const RunSignals& run, Side side, const Eigen::Array3d& n
       run.motor_current_A[side](samples(begin + shift)), run.wheel_speed_rad_s[side](samples(begin));
   known.rowwise() -= known.colwise().mean();
   known.array().rowwise() /= noise.transpose();
-  const Eigen::Matrix3d gram = known.transpose() * known;
-  return std::max(
-      0.0,
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues().minCoeff());
+  return std::pow(Eigen::JacobiSVD<Eigen::MatrixXd>(known).singularValues().minCoeff(), 2);
 }
 
 }  // namespace
@@ -56,7 +53,7 @@ double rough_channel_delay_s(const LogSet& logs) {
   std::vector<Sided<Eigen::Array3d>> noise;
   for (const RunSignals& run : signals) {
     const Trajectory& log = logs.dataset->runs[run.run_index].log;
-    noise.push_back({noise_of_wheel(log, Side::left), noise_of_wheel(log, Side::right)});
+    noise.push_back({noise_of_wheel(log, run, Side::left), noise_of_wheel(log, run, Side::right)});
   }
   double best = 0, at_zero = 0;
   int best_shift = 0;

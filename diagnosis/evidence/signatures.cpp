@@ -39,10 +39,6 @@ Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, c
 /// Of a derivative of sixth order over whole samples, for one, two and three samples on either side.
 constexpr std::array<double, 3> kSlopeWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
 
-/// Differences by an amplitude, in typical sizes. A state that lags by its strength (an inverse one) is of
-/// second order in it; its column is that of the same law's nuisance, whose size is far smaller.
-constexpr double kAmplitudeStep = 0.5, kLaggingStep = 0.05;
-
 constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 
 /// A variable of kFormVariables, scaled to [-1, 1].
@@ -90,12 +86,10 @@ class Differencer {
         base_(base),
         point_(model_point(robot, nuisances, state)) {}
 
-  /// Tires creep, or do not: a difference towards a negative creep would be another column than that of an
-  /// effect of the same law, and the two of opposite signs a filter of the wheels' noise.
   Eigen::MatrixXd nuisance(std::size_t k, double step) const {
     if (is_of_clocks(nuisances_[k])) return of_clock(nuisances_[k].key);
-    const bool one_sided = nuisances_[k].key == kCreepNuisance && state_.nuisance_fraction[k] < step;
-    return difference(signals_, point_, base_, one_sided ? 0.0 : -step, step, [&](double change) {
+    if (nuisances_[k].key == kCreepNuisance) return usual_creep_m_s_N(robot_) * creep();
+    return difference(signals_, point_, base_, -step, step, [&](double change) {
       ModelState changed = state_;
       changed.nuisance_fraction[k] += change;
       return at(changed);
@@ -104,6 +98,7 @@ class Differencer {
 
   Eigen::MatrixXd amplitude(const Candidate& candidate, std::size_t part) const {
     if (candidate.effect().delays_channels) return delay();
+    if (candidate.effect().info.stage == Stage::contact) return creep();
     const AmplitudeStep step = amplitude_step(state_, candidate, part);
     return difference(signals_, point_, base_, step.low, step.high,
                       [&](double change) { return at(with_change(state_, candidate, step, part, change)); });
@@ -143,6 +138,18 @@ class Differencer {
   }
 
  private:
+  /// Derivative by the creep of the tires, whether usual or an effect: one column. Two that differ in the
+  /// second order were a filter of the wheels' noise, with opposite signs.
+  Eigen::MatrixXd creep() const {
+    const double usual = usual_creep_m_s_N(robot_),
+                 now = make_plant(point_.robot, point_.effects).creep_m_s_N + point_.contact_creep_m_s_N;
+    return difference(signals_, point_, base_, now < usual ? 0.0 : -usual, usual, [&](double change) {
+      ModelPoint point = point_;
+      point.contact_creep_m_s_N += change;
+      return predict(signals_, point);
+    });
+  }
+
   /// Derivative by an error of an instrument's clock, in its 1-sigma.
   Eigen::MatrixXd of_clock(const std::string& key) const {
     if (key == kStampNuisance) return kStampFraction * signals_.log_period_s * delay();
@@ -260,8 +267,7 @@ AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate
   AmplitudeStep step{.value = std::vector<double>(candidate.amplitude.size(), 0.0)};
   std::size_t index;
   if (is_active(candidate, state, index)) step.value = state.effects[index].amplitude;
-  const bool lags = candidate.effect().strength().role == ParameterRole::inverse_strength;
-  step.high = candidate.step[part] * (lags ? kLaggingStep : kAmplitudeStep);
+  step.high = candidate.step[part] * 0.5;
   step.low = candidate.nonnegative && step.value[part] < step.high ? 0.0 : -step.high;
   return step;
 }

@@ -1,5 +1,7 @@
 #include "diagnosis/prediction/model_state.hpp"
 
+#include <algorithm>
+
 namespace joulepath {
 
 double channel_delay_s(const ModelState& state) {
@@ -13,7 +15,7 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
   ModelPoint point{.robot = robot};
   for (std::size_t k = 0; k < nuisances.size(); ++k) {
     if (nuisances[k].key == kCreepNuisance)
-      point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * state.nuisance_fraction[k];
+      point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * std::max(0.0, state.nuisance_fraction[k]);
     else if (nuisances[k].key == kHeldTurnNuisance)
       point.held_moment_Nm[*nuisances[k].side] = usual_held_moment_Nm(robot) * state.nuisance_fraction[k];
     else if (is_of_clocks(nuisances[k]))

@@ -40,9 +40,9 @@ void fill_motor(const RunSignals& signals, const Prediction& prediction, Side si
   }
 }
 
-/// Whether each wheel turns in one direction within the whole kernel, or stands: slow and without an
-/// acceleration above its noise. Where one reverses, starts or stops, dry friction takes a power that the
-/// smoothed motion does not tell.
+/// Whether each wheel turns in one direction within the whole kernel, or stands: slow, with neither an
+/// acceleration nor a mean of one above its noise. Where one reverses, starts or stops, dry friction takes a
+/// power that the smoothed motion does not tell.
 bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
   for (Side side : kSides) {
     const bool has_noise_taken_off = signals.period_s <= kLongestNoisePeriod_s;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/thresholds.hpp"
@@ -19,59 +20,72 @@ double noise_variance(const Eigen::VectorXd& mode, double third_difference_gain)
     squares.push_back(difference * difference);
   }
   if (squares.empty()) return 0.0;
-  return upper_median(squares) / (kMedianOfChiSquare * third_difference_gain);
-}
-
-/// The samples within half a window of one.
-Eigen::VectorXd window(const Eigen::VectorXd& mode, Eigen::Index at, Eigen::Index half_width) {
-  const Eigen::Index first = std::max<Eigen::Index>(0, at - half_width);
-  return mode.segment(first, std::min(mode.size(), at + half_width + 1) - first);
-}
-
-/// Sets to zero the samples about which the mean square is below so many variances of the noise.
-Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double variance, Eigen::Index half_width,
-                            double over_noise) {
-  Eigen::VectorXd kept = mode;
-  for (Eigen::Index j = 0; j < mode.size(); ++j) {
-    const Eigen::VectorXd near = window(mode, j, half_width);
-    if (near.squaredNorm() < over_noise * variance * static_cast<double>(near.size())) kept[j] = 0;
-  }
-  return kept;
+  return upper_median(std::move(squares)) / (kMedianOfChiSquare * third_difference_gain);
 }
 
 Eigen::Index half_window(double period_s) { return std::lround(kAccelerationWindow_s / period_s); }
 
-/// What is expected of an acceleration behind its reading, so that the reading's noise is no evidence against
-/// an inertia: where it stands out of its noise, the share of it that is no noise on average; elsewhere the
-/// mean of the window, where that stands out. The noise of a mean is that of the speeds at the window's ends:
-/// its variance is (2 sigma / T)^2 that of a sample under a Gaussian kernel.
-Eigen::VectorXd expected(const Eigen::VectorXd& mode, const Eigen::VectorXd& kept, double variance,
-                         double period_s, double kernel_sigma_s) {
-  Eigen::VectorXd result = kept;
+/// The samples within half a window of one.
+auto window(const Eigen::VectorXd& mode, Eigen::Index at, Eigen::Index half_width) {
+  const Eigen::Index first = std::max<Eigen::Index>(0, at - half_width);
+  return mode.segment(first, std::min(mode.size(), at + half_width + 1) - first);
+}
+
+/// Whether the mean square about each sample is at least so many variances of the noise.
+std::vector<bool> standing_out(const Eigen::VectorXd& mode, double variance, Eigen::Index half_width,
+                               double over_noise) {
+  std::vector<bool> result(static_cast<std::size_t>(mode.size()));
   for (Eigen::Index j = 0; j < mode.size(); ++j) {
-    const Eigen::VectorXd near = window(mode, j, half_window(period_s));
-    const double square = near.squaredNorm() / static_cast<double>(near.size()), mean = near.mean(),
-                 ends = 2 * kernel_sigma_s / (static_cast<double>(near.size()) * period_s);
-    if (kept[j] != 0)
-      result[j] *= std::max(0.0, 1 - variance / square);
-    else if (mean * mean > kMeanOverNoise * variance * std::min(1.0, ends * ends))
-      result[j] = mean;
+    const auto near = window(mode, j, half_width);
+    result[static_cast<std::size_t>(j)] =
+        near.squaredNorm() >= over_noise * variance * static_cast<double>(near.size());
   }
   return result;
 }
 
+/// A mode of the wheels' motion, its noise, and the samples that stand out of it.
 struct Mode {
-  Eigen::VectorXd value{}, kept{};  ///< all; zero where it does not stand out of its noise
+  Eigen::VectorXd value{};
   double variance{};
+  std::vector<bool> stands_out{};
+
+  [[nodiscard]] Eigen::VectorXd kept() const {
+    Eigen::VectorXd result = value;
+    for (Eigen::Index j = 0; j < value.size(); ++j)
+      if (!stands_out[static_cast<std::size_t>(j)]) result[j] = 0;
+    return result;
+  }
   [[nodiscard]] NoisySquares squares() const {
-    return {.all = kept.squaredNorm(), .noise = variance * static_cast<double>((kept.array() != 0).count())};
+    const Eigen::VectorXd of = kept();
+    return {.all = of.squaredNorm(), .noise = variance * static_cast<double>((of.array() != 0).count())};
   }
 };
 
 Mode mode_of(const Eigen::VectorXd& value, double third_difference_gain, Eigen::Index half_width,
              double over_noise) {
   const double variance = noise_variance(value, third_difference_gain);
-  return {value, above_noise(value, variance, half_width, over_noise), variance};
+  return {value, variance, standing_out(value, variance, half_width, over_noise)};
+}
+
+/// What is expected of an acceleration behind its reading, so that the reading's noise is no evidence against
+/// an inertia: where it stands out of its noise, the share of it that is no noise on average; elsewhere the
+/// mean of the window, where that stands out.
+Eigen::VectorXd expected(const Mode& mode, Eigen::Index half_width, double mean_gain) {
+  if (!(mode.variance > 0)) return mode.value;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(mode.value.size());
+  const auto whole = static_cast<double>(2 * half_width + 1);
+  for (Eigen::Index j = 0; j < result.size(); ++j) {
+    const auto near = window(mode.value, j, half_width);
+    const auto count = static_cast<double>(near.size());
+    if (mode.stands_out[static_cast<std::size_t>(j)]) {
+      result[j] = (1 - mode.variance * count / near.squaredNorm()) * mode.value[j];
+    } else {
+      const double mean = near.mean(),
+                   mean_variance = mode.variance * std::min(1.0, mean_gain * std::pow(whole / count, 2));
+      if (mean * mean > kMeanOverNoise * mean_variance) result[j] = mean;
+    }
+  }
+  return result;
 }
 
 Eigen::VectorXd driving(const Sided<Eigen::VectorXd>& wheels) { return 0.5 * (wheels.left + wheels.right); }
@@ -80,23 +94,22 @@ Eigen::VectorXd turning(const Sided<Eigen::VectorXd>& wheels) { return 0.5 * (wh
 }  // namespace
 
 NoisyModes remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2,
-                                     double third_difference_gain, double period_s, double kernel_sigma_s) {
+                                     double third_difference_gain, double period_s, double mean_gain) {
   if (period_s > kLongestNoisePeriod_s) return {};
+  const Eigen::Index half_width = half_window(period_s);
   const auto mode = [&](const Eigen::VectorXd& value) {
-    return mode_of(value, third_difference_gain, half_window(period_s), kAccelerationOverNoise);
-  };
-  const auto without_noise = [&](const Mode& of) {
-    return expected(of.value, of.kept, of.variance, period_s, kernel_sigma_s);
+    return mode_of(value, third_difference_gain, half_width, kAccelerationOverNoise);
   };
   const Mode drive = mode(driving(acceleration_rad_s2)), turn = mode(turning(acceleration_rad_s2));
-  const Eigen::VectorXd along = without_noise(drive), around = without_noise(turn);
+  const Eigen::VectorXd along = expected(drive, half_width, mean_gain),
+                        around = expected(turn, half_width, mean_gain);
   acceleration_rad_s2 = {along - around, along + around};
   return {drive.squares(), turn.squares()};
 }
 
 void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain) {
   const auto kept = [&](const Eigen::VectorXd& value) {
-    return mode_of(value, third_difference_gain, 1, kJerkOverNoise).kept;
+    return mode_of(value, third_difference_gain, 1, kJerkOverNoise).kept();
   };
   const Eigen::VectorXd along = kept(driving(jerk_rad_s3)), around = kept(turning(jerk_rad_s3));
   jerk_rad_s3 = {along - around, along + around};
@@ -105,8 +118,8 @@ void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_differe
 std::vector<bool> beyond_noise(const Eigen::VectorXd& signal, double third_difference_gain, double period_s) {
   std::vector<bool> beyond(static_cast<std::size_t>(signal.size()), true);
   if (period_s > kLongestNoisePeriod_s) return beyond;
-  const Eigen::VectorXd kept = above_noise(signal, noise_variance(signal, third_difference_gain),
-                                           half_window(period_s), kAccelerationOverNoise);
+  const Eigen::VectorXd kept =
+      mode_of(signal, third_difference_gain, half_window(period_s), kAccelerationOverNoise).kept();
   for (std::size_t j = 0; j < beyond.size(); ++j) beyond[j] = kept[static_cast<Eigen::Index>(j)] != 0;
   return beyond;
 }

@@ -32,7 +32,7 @@ struct UniformLog {
 UniformLog uniform_grid(const Samples& time_s) {
   Samples steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  UniformLog grid{.time_s = time_s, .period_s = upper_median(steps), .resampled = false};
+  UniformLog grid{.time_s = time_s, .period_s = upper_median(std::move(steps)), .resampled = false};
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
     grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > kUnevenPeriod * grid.period_s;
   if (!grid.resampled) return grid;
@@ -124,12 +124,15 @@ class Thinner {
   /// Variance of the third differences over that of the values, at the fine samples, both of white noise of a
   /// channel convolved with these weights.
   double third_difference_gain(const Samples& weights) const {
-    const auto correlation = [&](std::size_t lag) {
-      const std::size_t shift = std::min(lag * fine_, weights.size());
-      return std::inner_product(weights.begin() + static_cast<std::ptrdiff_t>(shift), weights.end(),
-                                weights.begin(), 0.0);
-    };
-    return 20 - (30 * correlation(1) - 12 * correlation(2) + 2 * correlation(3)) / correlation(0);
+    return 20 - 30 * correlation(weights, 1) + 12 * correlation(weights, 2) - 2 * correlation(weights, 3);
+  }
+  /// The same of the mean of a window of 2 kAccelerationWindow_s.
+  double mean_gain(const Samples& weights) const {
+    const auto count = 2 * std::lround(kAccelerationWindow_s / fine_period_s()) + 1;
+    double sum = static_cast<double>(count);
+    for (long lag = 1; lag < count; ++lag)
+      sum += 2 * static_cast<double>(count - lag) * correlation(weights, static_cast<std::size_t>(lag));
+    return std::max(0.0, sum) / static_cast<double>(count * count);
   }
 
  private:
@@ -143,6 +146,14 @@ class Thinner {
                       most = steps(kPeriod_s * std::max(1.0, sigma_s_ / kKernelSigma_s));
     thinning_ = (stride + most - 1) / most;
     fine_ = (stride + thinning_ - 1) / thinning_;
+  }
+
+  /// Of white noise of a channel convolved with these weights, between fine samples.
+  double correlation(const Samples& weights, std::size_t lag) const {
+    const std::size_t shift = std::min(lag * fine_, weights.size());
+    return std::inner_product(weights.begin() + static_cast<std::ptrdiff_t>(shift), weights.end(),
+                              weights.begin(), 0.0) /
+           std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
   }
 
   static Eigen::VectorXd at(const std::vector<std::size_t>& centers, const Samples& on_grid,
@@ -287,7 +298,7 @@ double reading_period_s(const Samples& channel, double log_period_s) {
     last = i;
   }
   if (steps.empty()) return log_period_s;
-  return static_cast<double>(upper_median(steps)) * log_period_s;
+  return static_cast<double>(upper_median(std::move(steps))) * log_period_s;
 }
 
 /// Below this current the dead band of a driver hides the winding: less than the friction current.
@@ -419,9 +430,10 @@ SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOpt
   const Sided<Samples> wheels{thinner.on_grid(logged.left), thinner.on_grid(logged.right)};
   const Samples& weights = thinner.kernel().slope_weight;
   Sided<Eigen::VectorXd> rate = thinner.fine(wheels, weights);
-  SmoothedNoise noise{.accelerations = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
-                                                                 thinner.fine_period_s(), thinner.sigma_s()),
-                      .kernel_sigma_s = thinner.sigma_s()};
+  SmoothedNoise noise{
+      .accelerations = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
+                                                 thinner.fine_period_s(), thinner.mean_gain(weights)),
+      .kernel_sigma_s = thinner.sigma_s()};
   const double gain = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
   const auto limit = [&](double other, NoisySquares& squares) {
     Samples mode = thinner.before_filter(wheels.left);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "model/median.hpp"
 
@@ -40,7 +41,7 @@ bool other_clock(const TopicSamples& samples) {
 double median_lag_s(const TopicSamples& samples) {
   std::vector<double> lags;
   each_lag(samples, [&](double lag_s) { lags.push_back(lag_s); });
-  return upper_median(lags);
+  return upper_median(std::move(lags));
 }
 
 class TableOfSamples {

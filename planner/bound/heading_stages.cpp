@@ -11,8 +11,8 @@ constexpr double kRampStage_m = 0.025, kMiddleStage_m = 0.05, kLongMiddleStage_m
 constexpr int kMiddleStages = 300;
 constexpr double kRampShare = 0.4;  ///< of the way from rest, near rest
 constexpr double kFirstStage_m = 0.01;
-constexpr double kPartOfAStage = 1.2;  ///< the longest part of a piece
-constexpr double kClosed = 0.8;        ///< the length from which on a stage takes no further piece
+constexpr double kPartOfAStage = 1.2;  ///< of its nominal length: a longer piece is cut
+constexpr double kClosed = 0.8;        ///< of its nominal length: from there on it takes no further part
 
 HeadingRates between(const HeadingRates& from, const HeadingRates& to, double share) {
   return {from.most_J, (1 - share) * from.at + share * to.at};

@@ -21,7 +21,8 @@ constexpr int kMostRefined = 6;  ///< plans with refined paths, where none of th
 constexpr std::size_t kEarlierLegs = 2, kCheapEarlier = 2;
 /// A stop whose estimate is this many times that of one that helps is not planned.
 constexpr double kDear = 1.3;
-constexpr double kDetourShare = 1.3;  ///< of the straight line, in the estimate of the energy to a charger
+constexpr double kDetourShare =
+    1.3;  ///< of the straight line, in the estimate of energy and time to a charger
 
 bool touches_reserve(const Plan& plan) {
   return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";

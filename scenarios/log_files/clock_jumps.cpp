@@ -26,7 +26,7 @@ std::vector<std::size_t> stretch_bounds(const std::vector<double>& time_s) {
   if (std::ranges::adjacent_find(time_s, is_long) == time_s.end()) return {0, time_s.size()};
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
-  const double least_s = std::max(kShortestJump_s, kShortestJumpInSteps * upper_median(steps));
+  const double least_s = std::max(kShortestJump_s, kShortestJumpInSteps * upper_median(std::move(steps)));
   std::vector<std::size_t> bounds{0};
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
     if (time_s[i + 1] - time_s[i] > least_s) bounds.push_back(i + 1);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "model/median.hpp"
 #include "model/printable.hpp"
@@ -119,7 +120,7 @@ void note_far_points(const std::vector<Pose>& points, std::vector<std::string>* 
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     apart_m.push_back(std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m));
   if (apart_m.size() < 2 || notes == nullptr) return;
-  const double median = upper_median(apart_m);
+  const double median = upper_median(std::move(apart_m));
   if (median >= kFarPoints_m)
     notes->push_back("points of the path are " + four_digits(median) +
                      " m apart (median): are the coordinates in cm, or in mm?");

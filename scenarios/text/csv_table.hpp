@@ -33,8 +33,9 @@ struct CsvTable {
 [[nodiscard]] CsvTable parse_csv(std::string_view text, std::string file,
                                  const std::function<bool(const std::string&)>& wanted);
 
-/// Columns of numbers, all of one length, as a CSV file with a header.
+/// Columns of numbers of one length, by name.
 using CsvColumns = std::vector<std::pair<std::string, const std::vector<double>*>>;
+/// A CSV file: a header, then shortest exact numbers.
 [[nodiscard]] std::string csv_text(const CsvColumns& columns);
 
 }  // namespace joulepath

@@ -32,7 +32,7 @@ double share_without(const Eigen::VectorXd& acceleration) {
 
 /// White noise of 0.2 on both wheels, and the width of the kernel whose means over a window have its
 /// variance.
-constexpr double kWhiteNoise = 0.2, kPeriodOfNoise_s = 0.1, kKernelOfNoise_s = 0.166;
+constexpr double kWhiteNoise = 0.2, kPeriodOfNoise_s = 0.1, kMeanGain = 0.166;
 
 Sided<Eigen::VectorXd> with_noise(const Eigen::VectorXd& acceleration, unsigned seed) {
   std::mt19937_64 random(seed);
@@ -48,12 +48,12 @@ TEST(AccelerationNoise, WhatStandsOutOfWhiteNoiseStays) {
   acceleration.tail(200).setOnes();
   const Sided<Eigen::VectorXd> given = with_noise(acceleration, 4);
   Sided<Eigen::VectorXd> found = given, sparse = given;
-  remove_acceleration_noise(found, 20, kPeriodOfNoise_s, kKernelOfNoise_s);
+  remove_acceleration_noise(found, 20, kPeriodOfNoise_s, kMeanGain);
   EXPECT_GT(share_without(found.left.head(190)), 0.97);
   const Eigen::VectorXd left = (found.left + found.right).tail(190),
                         all = (given.left + given.right).tail(190);
   EXPECT_LT((left - all).cwiseQuotient(all).cwiseAbs().maxCoeff(), 0.05) << "less its share of noise";
-  remove_acceleration_noise(sparse, 20, 0.3, kKernelOfNoise_s);
+  remove_acceleration_noise(sparse, 20, 0.3, kMeanGain);
   EXPECT_EQ(sparse.left, given.left);
 }
 
@@ -64,7 +64,7 @@ TEST(AccelerationNoise, TakesNoInertia) {
   for (Eigen::Index j = 0; j < acceleration.size(); ++j) acceleration[j] = j / 100 % 2 == 0 ? 0.7 : -0.7;
   const Sided<Eigen::VectorXd> given = with_noise(acceleration, 5);
   Sided<Eigen::VectorXd> found = given;
-  remove_acceleration_noise(found, 20, kPeriodOfNoise_s, kKernelOfNoise_s);
+  remove_acceleration_noise(found, 20, kPeriodOfNoise_s, kMeanGain);
   const auto inertia = [&](const Sided<Eigen::VectorXd>& wheels) {
     const Eigen::VectorXd mean = 0.5 * (wheels.left + wheels.right);
     return mean.dot(acceleration) / mean.squaredNorm();
@@ -81,10 +81,42 @@ TEST(AccelerationNoise, ASlowFallOfTheSpeedIsFound) {
   Sided<Eigen::VectorXd> found = with_noise(Eigen::VectorXd::Zero(1201), 6);
   for (Side side : kSides)
     found[side] = acceleration + (found[side].tail(1200) - found[side].head(1200)) / std::sqrt(2.0);
-  remove_acceleration_noise(found, 35, kPeriodOfNoise_s, 0.5 * kPeriodOfNoise_s);
+  remove_acceleration_noise(found, 35, kPeriodOfNoise_s, kMeanGain / 11);
   const Eigen::VectorXd mean = 0.5 * (found.left + found.right);
   EXPECT_NEAR(mean.segment(310, 580).mean(), -0.1, 0.01);
   EXPECT_GT(share_without(mean.head(290)), 0.97);
+}
+
+/// A robot at rest logs zeros. With noise once it moves, and without, it has no acceleration before it
+/// starts.
+TEST(AccelerationNoise, ARestBeforeAStartHasNone) {
+  const Robot robot = testing::nomad();
+  for (const double noise_rad_s : {0.0, 0.02}) {
+    auto run = testing::synthetic_run(
+        robot, "run", 12, 0,
+        [](double t) {
+          return t < 5 ? BodyMotion<double>{}
+                       : BodyMotion<double>{.speed_m_s = 0.08 * (t - 5), .acceleration_m_s2 = 0.08};
+        },
+        {.speed_rad_s = noise_rad_s}, 3);
+    for (Side side : kSides)
+      for (std::size_t k = 0; run.log.time_s[k] < 5; ++k) run.log.wheel_speed_rad_s[side][k] = 0;
+    const RunSignals found = make_run_signals(run, 0, robot);
+    for (Eigen::Index j = 0; found.time_s[j] < 5 - 4 * kKernelSigma_s; ++j)
+      EXPECT_EQ(found.wheel_acceleration_rad_s2.left[j], 0) << noise_rad_s << " " << found.time_s[j];
+  }
+}
+
+/// Of white noise of the speeds, under the kernel, next to nothing is left.
+TEST(AccelerationNoise, OfSpeedsUnderTheKernelIsNone) {
+  double left = 0, all = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const RunSignals steady = signals_of(testing::constant_speed(0.6), seed);
+    const Eigen::VectorXd mean =
+        steady.wheel_acceleration_rad_s2.left + steady.wheel_acceleration_rad_s2.right;
+    left += static_cast<double>((mean.array() != 0).count()), all += static_cast<double>(mean.size());
+  }
+  EXPECT_LT(left / all, 0.006) << "0.1 % of windows and 0.1 % of means, which overlap";
 }
 
 /// Makes the speeds differences of an encoder's counts.

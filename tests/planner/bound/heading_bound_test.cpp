@@ -79,24 +79,24 @@ TEST(HeadingStage, CostIsBelowTheIntegralForEverySlope) {
   const HeadingRates steep{3, Eigen::ArrayXd::LinSpaced(17, 9, -9)},
       flat{3, Eigen::ArrayXd::LinSpaced(17, 2, 4)};
   const HeadingRates bent{3, 5 - Eigen::ArrayXd::LinSpaced(17, -3, 3).square()};
-  RateTable table{.line = {.s_m = {0, 0.006, 0.018, 0.018, 0.03}, .p = {0, 0, 0, 0, 0}, .peak = 2},
+  RateTable table{.line = {.s_m = {0, 0.006, 0.0175, 0.0175, 0.03}, .p = {0, 0, 0, 0, 0}, .peak = 2},
                   .pieces = {{steep, bent}, {flat, steep}, {bent, bent}, {bent, flat}},
                   .middle = bent,
                   .bounded = true};
   const HeadingStage stage = heading_stages(table, 0.03, 0.03, false).front();
-  ASSERT_NEAR(stage.length_m, 0.018, 1e-12) << "two pieces in one";
+  ASSERT_NEAR(stage.length_m, 0.0175, 1e-12) << "two pieces in one";
   for (const double price : {-1.5, 0.0, 0.8, 2.0})
     for (const double low : {-30.0, 10.0})
       for (const double high : {20.0, 45.0}) {
         double integral_J = 0;
         constexpr int kParts = 4000;
         for (int k = 0; k < kParts; ++k) {
-          const double sigma = 0.018 * (k + 0.5) / kParts, shift = sigma - 0.009;
+          const double sigma = 0.0175 * (k + 0.5) / kParts, shift = sigma - 0.00875;
           const double slope = k % 2 ? high : low, at = price - shift * slope;
           const bool second = sigma > 0.006;
-          const double share = second ? (sigma - 0.006) / 0.012 : sigma / 0.006;
-          integral_J +=
-              0.018 / kParts * std::lerp(second ? flat(at) : steep(at), second ? steep(at) : bent(at), share);
+          const double share = second ? (sigma - 0.006) / 0.0115 : sigma / 0.006;
+          integral_J += 0.0175 / kParts *
+                        std::lerp(second ? flat(at) : steep(at), second ? steep(at) : bent(at), share);
         }
         EXPECT_LE(stage.cost_J(price, low, high), integral_J + 1e-4) << price << " " << low << " " << high;
       }
