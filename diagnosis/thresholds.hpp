@@ -55,8 +55,8 @@ inline constexpr double kMostGrowth = 50.0;
 /// 99.9 % of windows of eleven samples of noise are below, at kPeriod_s and logs of 50 Hz and more (0501).
 inline constexpr double kAccelerationOverNoise = 3.0;
 /// Square of the mean of such a window over the variance of a mean of noise, below which it counts as none.
-/// Derived: 99.9 % of means of noise are below.
-inline constexpr double kMeanOverNoise = 10.8;
+/// Derived: 99 % of means of noise are below. One that is not has a hundredth of a sample's noise.
+inline constexpr double kMeanOverNoise = 6.6;
 /// Half the width of such a window. Chosen (0501).
 inline constexpr double kAccelerationWindow_s = 0.5;
 /// kAccelerationOverNoise of jerks, over three samples. Chosen (0501): guards stiffnesses of contacts against
