@@ -67,23 +67,17 @@ Mode mode_of(const Eigen::VectorXd& value, double third_difference_gain, Eigen::
   return {value, variance, standing_out(value, variance, half_width, over_noise)};
 }
 
-/// What is expected of an acceleration behind its reading, so that the reading's noise is no evidence against
-/// an inertia: where it stands out of its noise, the share of it that is no noise on average; elsewhere the
-/// mean of the window, where that stands out.
-Eigen::VectorXd expected(const Mode& mode, Eigen::Index half_width, double mean_gain) {
-  if (!(mode.variance > 0)) return mode.value;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(mode.value.size());
+/// The acceleration where it stands out of its noise; elsewhere the mean of the window, where that stands
+/// out.
+Eigen::VectorXd without_noise(const Mode& mode, Eigen::Index half_width, double mean_gain) {
+  Eigen::VectorXd result = mode.kept();
   const auto whole = static_cast<double>(2 * half_width + 1);
   for (Eigen::Index j = 0; j < result.size(); ++j) {
+    if (mode.stands_out[static_cast<std::size_t>(j)]) continue;
     const auto near = window(mode.value, j, half_width);
-    const auto count = static_cast<double>(near.size());
-    if (mode.stands_out[static_cast<std::size_t>(j)]) {
-      result[j] = (1 - mode.variance * count / near.squaredNorm()) * mode.value[j];
-    } else {
-      const double mean = near.mean(),
-                   mean_variance = mode.variance * std::min(1.0, mean_gain * std::pow(whole / count, 2));
-      if (mean * mean > kMeanOverNoise * mean_variance) result[j] = mean;
-    }
+    const double mean = near.mean(), shorter = whole / static_cast<double>(near.size());
+    if (mean * mean > kMeanOverNoise * mode.variance * std::min(1.0, mean_gain * shorter * shorter))
+      result[j] = mean;
   }
   return result;
 }
@@ -101,8 +95,8 @@ NoisyModes remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2
     return mode_of(value, third_difference_gain, half_width, kAccelerationOverNoise);
   };
   const Mode drive = mode(driving(acceleration_rad_s2)), turn = mode(turning(acceleration_rad_s2));
-  const Eigen::VectorXd along = expected(drive, half_width, mean_gain),
-                        around = expected(turn, half_width, mean_gain);
+  const Eigen::VectorXd along = without_noise(drive, half_width, mean_gain),
+                        around = without_noise(turn, half_width, mean_gain);
   acceleration_rad_s2 = {along - around, along + around};
   return {drive.squares(), turn.squares()};
 }
