@@ -68,12 +68,12 @@ Mode mode_of(const Eigen::VectorXd& value, double third_difference_gain, Eigen::
 }
 
 /// The acceleration where it stands out of its noise; elsewhere the mean of the window, where that stands
-/// out.
+/// out. A reading of zero stays: a robot at rest logs zeros.
 Eigen::VectorXd without_noise(const Mode& mode, Eigen::Index half_width, double mean_gain) {
   Eigen::VectorXd result = mode.kept();
   const auto whole = static_cast<double>(2 * half_width + 1);
   for (Eigen::Index j = 0; j < result.size(); ++j) {
-    if (mode.stands_out[static_cast<std::size_t>(j)]) continue;
+    if (mode.stands_out[static_cast<std::size_t>(j)] || mode.value[j] == 0) continue;
     const auto near = window(mode.value, j, half_width);
     const double mean = near.mean(), shorter = whole / static_cast<double>(near.size());
     if (mean * mean > kMeanOverNoise * mode.variance * std::min(1.0, mean_gain * shorter * shorter))
@@ -112,9 +112,10 @@ void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_differe
 std::vector<bool> beyond_noise(const Eigen::VectorXd& signal, double third_difference_gain, double period_s) {
   std::vector<bool> beyond(static_cast<std::size_t>(signal.size()), true);
   if (period_s > kLongestNoisePeriod_s) return beyond;
-  const Eigen::VectorXd kept =
-      mode_of(signal, third_difference_gain, half_window(period_s), kAccelerationOverNoise).kept();
-  for (std::size_t j = 0; j < beyond.size(); ++j) beyond[j] = kept[static_cast<Eigen::Index>(j)] != 0;
+  beyond = standing_out(signal, noise_variance(signal, third_difference_gain), half_window(period_s),
+                        kAccelerationOverNoise);
+  for (std::size_t j = 0; j < beyond.size(); ++j)
+    if (signal[static_cast<Eigen::Index>(j)] == 0) beyond[j] = false;
   return beyond;
 }
 

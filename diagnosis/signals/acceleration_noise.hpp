@@ -23,12 +23,12 @@ struct NoisyModes {
 
 /// Takes the encoders' noise out of accelerations: of the wheels' mean (driving) and half their difference
 /// (turning), each by itself. Where the mean square of the samples within kAccelerationWindow_s of one is at
-/// least kAccelerationOverNoise times the noise, the sample counts; elsewhere their
-/// mean counts, where it stands out of its own noise, and else nothing. The noise is that of the third
-/// differences of the accelerations themselves, by the median: that of a signal that mostly repeats its
-/// values is 0, and it stays as it is. `third_difference_gain`: variance of a third difference of the noise
-/// over that of the noise, 20 if it is white; `mean_gain`: the same of such a mean. Samples further apart
-/// than kLongestNoisePeriod_s stay as they are. Returns what stands out.
+/// least kAccelerationOverNoise times the noise, the sample counts; elsewhere their mean counts, where it
+/// stands out of its own noise, and else nothing. The noise is that of the third differences of the
+/// accelerations themselves, by the median: that of a signal that mostly repeats its values is 0, and it
+/// stays as it is. `third_difference_gain`: variance of a third difference of the noise over that of the
+/// noise, 20 if it is white; `mean_gain`: the same of such a mean. Samples further apart than
+/// kLongestNoisePeriod_s stay as they are. Returns what stands out.
 NoisyModes remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2,
                                      double third_difference_gain, double period_s, double mean_gain);
 

@@ -233,7 +233,7 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
   Sided<Eigen::VectorXd> rate = thinner.fine(wheels, kernel.slope_weight),
                          jerk = thinner.fine(wheels, kernel.curvature_weight);
   remove_acceleration_noise(rate, thinner.third_difference_gain(kernel.slope_weight), thinner.fine_period_s(),
-                            thinner.sigma_s());
+                            thinner.mean_gain(kernel.slope_weight));
   remove_jerk_noise(jerk, thinner.third_difference_gain(kernel.curvature_weight));
   for (Side side : kSides) {
     signals.wheel_acceleration_rad_s2[side] = thinner.thinned(rate[side]);

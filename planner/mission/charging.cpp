@@ -21,8 +21,8 @@ constexpr int kMostRefined = 6;  ///< plans with refined paths, where none of th
 constexpr std::size_t kEarlierLegs = 2, kCheapEarlier = 2;
 /// A stop whose estimate is this many times that of one that helps is not planned.
 constexpr double kDear = 1.3;
-constexpr double kDetourShare =
-    1.3;  ///< of the straight line, in the estimate of energy and time to a charger
+/// Of the straight line, in the estimate of energy and time to a charger.
+constexpr double kDetourShare = 1.3;
 
 bool touches_reserve(const Plan& plan) {
   return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";
@@ -34,8 +34,8 @@ struct Driving {
   double energy_J{}, time_s{};
 };
 
-/// A way between two stops, by what the failed plan takes per metre.
-Driving way(const Plan& failed, const Plant& plant, const Point2& from_m, const Point2& to_m) {
+/// What a plan takes per metre.
+Driving per_metre(const Plan& failed, const Plant& plant) {
   Driving all;
   double driven_m = 0.0;
   for (const LegPlan& planned : failed.legs) {
@@ -43,8 +43,13 @@ Driving way(const Plan& failed, const Plant& plant, const Point2& from_m, const 
     all.time_s += planned.duration_s;
     driven_m += planned.distance_m;
   }
-  const double share = driven_m > 0 ? kDetourShare * distance_m(from_m, to_m) / driven_m : 0.0;
-  return {share * all.energy_J, share * all.time_s};
+  return driven_m > 0 ? Driving{all.energy_J / driven_m, all.time_s / driven_m} : Driving{};
+}
+
+/// A way between two stops.
+Driving way(const Driving& metre, const Point2& from_m, const Point2& to_m) {
+  const double length_m = kDetourShare * distance_m(from_m, to_m);
+  return {length_m * metre.energy_J, length_m * metre.time_s};
 }
 
 Point2 place_of(const Station& station) { return {station.x_m, station.y_m}; }
@@ -56,14 +61,13 @@ Point2 place_before(const MissionRequest& mission, std::size_t leg) {
 }
 
 /// Charging time if the robot drives to a charger before a leg; infinite if the charger is too weak.
-double charging_s(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
-                  const Station& charger) {
+double charging_s(const MissionRequest& mission, const BatteryAccount& account, const Driving& metre,
+                  const Plant& plant, std::size_t leg, const Station& charger) {
   const Battery& battery = plant.robot.battery;
-  const BatteryAccount& account = *failed.battery;
   const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
   const double missing_J = energy_share_between(battery, before, mission.charging->to_fraction) *
                                kJoulesPerWh * battery.capacity_Wh +
-                           way(failed, plant, place_before(mission, leg), place_of(charger)).energy_J;
+                           way(metre, place_before(mission, leg), place_of(charger)).energy_J;
   const double power_W = charger.charger_W - plant.robot.power.standby_W;
   const double stored_W = stored_power_W(battery, before, power_W);
   return stored_W > 0 ? std::max(0.0, missing_J) / stored_W : kNoLimit;
@@ -94,6 +98,7 @@ struct Candidate {
 /// Missions with one more stop, before one of the legs up to `last`, the latest leg first.
 std::vector<Candidate> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
                                           const Plant& plant, std::size_t last) {
+  const Driving metre = per_metre(failed, plant);
   std::vector<Candidate> candidates;
   for (std::size_t leg = last + 1; leg-- > 0;) {
     const bool stands_at_station = leg == 0 || between_stations(mission.legs[leg - 1]);
@@ -103,11 +108,10 @@ std::vector<Candidate> with_one_more_stop(const MissionRequest& mission, const P
                  goal_m = place_of(mission.stations.at(mission.legs[leg].to));
     for (const std::string& name : mission.charging->stations) {
       const Station& charger = mission.stations.at(name);
-      const double dwell_s = charging_s(mission, failed, plant, leg, charger);
+      const double dwell_s = charging_s(mission, *failed.battery, metre, plant, leg, charger);
       if (!std::isfinite(dwell_s)) continue;
-      const Driving there = way(failed, plant, here_m, place_of(charger)),
-                    on = way(failed, plant, place_of(charger), goal_m),
-                    straight = way(failed, plant, here_m, goal_m);
+      const Driving there = way(metre, here_m, place_of(charger)), on = way(metre, place_of(charger), goal_m),
+                    straight = way(metre, here_m, goal_m);
       const double extra =
           cost(there.energy_J + on.energy_J - straight.energy_J + plant.robot.power.standby_W * dwell_s,
                there.time_s + on.time_s - straight.time_s + dwell_s, mission.objective);
