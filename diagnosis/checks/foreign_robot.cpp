@@ -42,15 +42,16 @@ bool measures_windings(const RunSignals& run) {
   });
 }
 
-/// V = R i + Kv n w of both wheels.
+/// V = R i + Kv n w + a drop that has the current's sign, of both wheels.
 bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
-  SmallFit<2> fit;
+  SmallFit<3> fit;
   for (const RunSignals& run : runs)
     for (Side side : kSides)
       for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j)
         if (run.conducting[side][static_cast<std::size_t>(j)])
-          fit.add({run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j]},
-                  run.motor_voltage_V[side][j]);
+          fit.add(
+              {run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j], run.current_direction[side][j]},
+              run.motor_voltage_V[side][j]);
   std::array<double, 2> value{}, error{};
   const Motor& motor = robot.motor.left;
   return fit.solve(value, error) &&

@@ -26,14 +26,18 @@ Eigen::Array3d noise_of_wheel(const Trajectory& log, const RunSignals& run, Side
 /// Sum of squares that a + b V(t + shift) + c i(t + shift) + d q'(t) = 0 leaves at best over the noise that
 /// it then has: total least squares, over `count` samples from `begin` on. The file's constants may be wrong,
 /// and a resistance that is wrong imitates a shift: they are free. Where V alone had noise, a resistance that
-/// is too small would take in less of the current's, and a shift with it would leave less than none.
+/// is too small would take in less of the current's, and a shift with it would leave less than none. A
+/// driver's drop is taken off: the current's sign is as good as exact.
 double left_of_winding(const RunSignals& run, Side side, const Eigen::Array3d& noise, Eigen::Index shift,
                        Eigen::Index begin, Eigen::Index count, Eigen::Index stride) {
   const auto samples = [&](Eigen::Index from) { return Eigen::seqN(from, count, stride); };
   Eigen::MatrixX3d known(count, 3);
   known << run.motor_voltage_V[side](samples(begin + shift)),
       run.motor_current_A[side](samples(begin + shift)), run.wheel_speed_rad_s[side](samples(begin));
+  Eigen::VectorXd sign = run.current_direction[side](samples(begin + shift));
   known.rowwise() -= known.colwise().mean();
+  sign.array() -= sign.mean();
+  if (const double size = sign.squaredNorm(); size > 0) known -= sign * (sign.transpose() * known / size);
   known.array().rowwise() /= noise.transpose();
   return std::pow(Eigen::JacobiSVD<Eigen::MatrixXd>(known).singularValues().minCoeff(), 2);
 }

@@ -128,7 +128,7 @@ RunSignals expected_signals(const Identification& id, const Robot& robot, RunSig
     run.battery_power_W = shown.battery_power_W;
   for (Side side : kSides) {
     if (any_run(id, [&](const RunSignals& r) { return r.motor_current_A[side].size() > 0; }))
-      run.motor_current_A[side] = shown.current_A[side];
+      run.motor_current_A[side] = shown.current_A[side], run.current_direction[side] = {};
     if (any_run(id, [&](const RunSignals& r) { return r.motor_voltage_V[side].size() > 0; }))
       run.motor_voltage_V[side] = shown.voltage_V[side];
     if (any_run(id, [&](const RunSignals& r) { return r.motor_power_W[side].size() > 0; }))

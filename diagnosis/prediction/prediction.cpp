@@ -43,12 +43,11 @@ SplitModel split_model(const ModelPoint& point) {
 
 /// The voltage drop of a driver changes sign with the current. Near zero current the predicted sign is
 /// uncertain, so the sign of the measured current is used where it exists.
-void blur_driver_drop(double drop_V, const Eigen::VectorXd& measured_A, Eigen::Index j,
+void blur_driver_drop(double drop_V, const RunSignals& signals, Side side, Eigen::Index j,
                       WheelState<double>& wheel) {
   if (drop_V == 0) return;
   const double hard = wheel.current_A > 0 ? 1.0 : wheel.current_A < 0 ? -1.0 : 0.0;
-  const double sign_of_A = j < measured_A.size() ? measured_A[j] : wheel.current_A;
-  const double change_V = drop_V * (soft_sign(sign_of_A, kBlurredCurrent_A) - hard);
+  const double change_V = drop_V * (signals.current_sign(side, j, wheel.current_A) - hard);
   wheel.voltage_V += change_V;
   wheel.power_W += change_V * wheel.current_A;
 }
@@ -125,7 +124,7 @@ void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index
                      Sided<WheelState<double>> state, const Sided<WheelChange>& change, Prediction& out) {
   const Robot& robot = plant.robot;
   for (Side side : kSides) {
-    blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
+    blur_driver_drop(plant.driver_voltage_drop_V, signals, side, j, state[side]);
     out.current_A[side][j] = state[side].current_A;
     out.voltage_V[side][j] = state[side].voltage_V;
     const Eigen::VectorXd& logged_W = signals.motor_covariance_W[side];

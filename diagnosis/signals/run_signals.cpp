@@ -347,6 +347,24 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
   return account;
 }
 
+/// Mean of the signs of a current's samples: within the kernel a current may change its direction or rest,
+/// which its mean does not tell. Samples within their noise have the sign of their own mean.
+Eigen::VectorXd mean_sign(const Thinner& thinner, const Samples& current_A, double delay_s) {
+  const double noise_A = kWheelOverNoise * noise_of(current_A);
+  Samples sign(current_A.size()), doubt(current_A.size()), doubtful_A(current_A.size());
+  for (std::size_t i = 0; i < sign.size(); ++i) {
+    doubt[i] = std::abs(current_A[i]) > noise_A ? 0.0 : 1.0;
+    sign[i] = std::copysign(1 - doubt[i], current_A[i]);
+    doubtful_A[i] = doubt[i] * current_A[i];
+  }
+  const auto mean = [&](const Samples& samples) { return thinner.smooth(thinner.reading(samples, delay_s)); };
+  Eigen::VectorXd result = mean(sign);
+  const Eigen::VectorXd share = mean(doubt), sum_A = mean(doubtful_A);
+  for (Eigen::Index j = 0; j < result.size(); ++j)
+    if (share[j] > 0) result[j] += share[j] * soft_sign(sum_A[j] / share[j], kBlurredCurrent_A);
+  return result;
+}
+
 /// Voltage, current and power of both motors; the power by the winding where no voltage is logged.
 void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Robot& robot,
                  const Sided<Samples>& logged_wheels, double delay_s) {
@@ -356,6 +374,7 @@ void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& 
     const Samples& current_A = log.motor_current_A[side];
     signals.motor_voltage_V[side] = mean(log.motor_voltage_V[side]);
     signals.motor_current_A[side] = mean(current_A);
+    signals.current_direction[side] = mean_sign(thinner, current_A, delay_s);
     const Samples voltage_V = log.motor_voltage_V[side].empty()
                                   ? winding_V(robot.motor[side], logged_wheels[side], current_A)
                                   : log.motor_voltage_V[side];

@@ -69,6 +69,8 @@ struct RunSignals {
   Sided<Eigen::VectorXd> wheel_along_y_rad{};
   Sided<Eigen::VectorXd> motor_voltage_V{};
   Sided<Eigen::VectorXd> motor_current_A{};
+  /// Mean over the kernel of the sign of the log's samples of a current, -1 to 1; empty without currents.
+  Sided<Eigen::VectorXd> current_direction{};
   Sided<Eigen::VectorXd> motor_power_W{};  ///< logged; or V i of each sample; or (R i + Kv n q') i
   /// What the mean of voltage times current has beyond the product of their means, as logged: free of noise
   /// in the mean, since both noises are independent. Empty where no power of the samples is known.
@@ -102,6 +104,13 @@ struct RunSignals {
   [[nodiscard]] double direction(Side side, Eigen::Index j) const {
     const Eigen::VectorXd& mean = wheel_direction[side];
     return mean.size() > 0 ? mean[j] : friction_direction(wheel_speed_rad_s[side][j]);
+  }
+
+  /// Sign of a motor's current at a sample, -1 to 1, by which a driver's voltage drop acts: as logged, else
+  /// of the current that is expected.
+  [[nodiscard]] double current_sign(Side side, Eigen::Index j, double expected_A) const {
+    const Eigen::VectorXd& mean = current_direction[side];
+    return mean.size() > 0 ? mean[j] : soft_sign(expected_A, kBlurredCurrent_A);
   }
 
   /// Motion of the body at a sample as the wheels tell it, without creep.
