@@ -261,6 +261,11 @@ inline constexpr double kStampFraction = 0.06;
 /// Delay of another instrument than the motors' driver over the period of its readings, 1-sigma. Derived:
 /// half of it lies between a reading at the period's end and its mean (0501).
 inline constexpr double kReadingDelay = 0.5;
+/// Readings further apart count where what they read is steady: between them a motion may change that a
+/// delay to first order does not describe. Chosen.
+inline constexpr double kSlowReading_s = 0.3;
+/// Greatest change of a steady power over its root mean square. Chosen: a delay describes it.
+inline constexpr double kSteadyPower = 0.02;
 /// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
 inline constexpr double kCalibrationBox = 3.0;
 /// Friction and the windings' resistance differ from run to run by this share at first; the fit re-estimates

@@ -76,6 +76,26 @@ double jump_W(const Prediction& prediction, Eigen::Index j) {
   return kOfAJump * product_W;
 }
 
+/// Whether the battery's power, as predicted, is steady for so long that a slow reading is no other, whether
+/// it is of an instant, a mean since the reading before, or on the line to the next.
+bool is_steady(const RunSignals& signals, const Eigen::VectorXd& predicted_W, Eigen::Index j) {
+  const auto rows =
+      static_cast<Eigen::Index>(std::ceil(signals.reading_period_s.battery_s / signals.period_s));
+  if (j < 2 * rows || j + rows >= predicted_W.size()) return false;
+  const auto about = predicted_W.segment(j - 2 * rows, 3 * rows + 1);
+  return about.maxCoeff() - about.minCoeff() <= kSteadyPower * rms(predicted_W);
+}
+
+/// Leaves each reading of a slow battery monitor once.
+void keep_readings(const RunSignals& signals, const Prediction& prediction, ResidualRows& rows) {
+  if (signals.battery_read.empty()) return;
+  for (Eigen::Index j = 0; j < signals.size(); ++j) {
+    const bool read = signals.battery_read[static_cast<std::size_t>(j)];
+    if (!read || !is_steady(signals, prediction.battery_power_W, j)) rows.present(j, kDriverPower) = false;
+    if (!read) rows.present(j, kSupplyVoltage) = false;
+  }
+}
+
 /// The battery's power less standby and what the motors take, which the log shows, or else the model. Rows
 /// count where doubt about what the motors take changes it by less than its resolution.
 void fill_driver(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction,
@@ -107,6 +127,7 @@ void fill_supply(const RunSignals& signals, const ModelPoint& point, const Predi
   if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
       std::isfinite(point.robot.battery.open_circuit_voltage_V))
     fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V, rows);
+  keep_readings(signals, prediction, rows);
 }
 
 void fill_motion(const RunSignals& signals, const Prediction& prediction, ResidualRows& rows) {

@@ -283,20 +283,27 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   }
 }
 
-/// Median time between the readings of a channel: a value that is neither that before it nor on the line
-/// through the two before it is a new reading.
-double reading_period_s(const Samples& channel, double log_period_s) {
-  std::vector<std::size_t> steps;
-  std::size_t last = 0;
+/// Samples after which a channel has a new reading: a value that is neither that before it nor on the line
+/// through the two before it, but for the rounding of a float.
+std::vector<std::size_t> new_readings(const Samples& channel) {
+  if (channel.empty()) return {};
+  std::vector<std::size_t> at;
+  const auto [least, most] = std::ranges::minmax(channel);
+  const double rounding = 1e-7 * std::max(-least, most);
   const auto on_line = [&](std::size_t i) {
     const double step = channel[i] - channel[i - 1], before = channel[i - 1] - channel[i - 2];
-    return std::abs(step - before) <= 1e-6 * (std::abs(step) + std::abs(before));
+    return std::abs(step - before) <= rounding + 1e-6 * (std::abs(step) + std::abs(before));
   };
-  for (std::size_t i = 2; i < channel.size(); ++i) {
-    if (channel[i] == channel[i - 1] || on_line(i)) continue;
-    if (last > 0) steps.push_back(i - last);
-    last = i;
-  }
+  for (std::size_t i = 2; i < channel.size(); ++i)
+    if (channel[i] != channel[i - 1] && !on_line(i)) at.push_back(i);
+  return at;
+}
+
+/// Median time between the readings of a channel.
+double reading_period_s(const Samples& channel, double log_period_s) {
+  const std::vector<std::size_t> at = new_readings(channel);
+  std::vector<std::size_t> steps;
+  for (std::size_t k = 1; k < at.size(); ++k) steps.push_back(at[k] - at[k - 1]);
   if (steps.empty()) return log_period_s;
   return static_cast<double>(upper_median(std::move(steps))) * log_period_s;
 }
@@ -389,7 +396,20 @@ void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& 
   mark_conducting(signals, robot);
 }
 
+/// Of a channel with slow readings, one row for each: the first whose kernel holds nothing before it.
+std::vector<bool> rows_of_readings(const Thinner& thinner, const Samples& channel) {
+  std::vector<bool> rows(thinner.centers().size(), false);
+  for (const std::size_t at : new_readings(thinner.on_grid(channel))) {
+    const auto row = std::ranges::lower_bound(thinner.centers(), at + thinner.half_width());
+    if (row != thinner.centers().end())
+      rows[static_cast<std::size_t>(row - thinner.centers().begin())] = true;
+  }
+  return rows;
+}
+
 void fill_battery(RunSignals& signals, const Thinner& thinner, const Trajectory& log) {
+  if (signals.reading_period_s.battery_s > kSlowReading_s)
+    signals.battery_read = rows_of_readings(thinner, log.battery_current_A);
   signals.battery_voltage_V = thinner.smooth(thinner.reading(log.battery_voltage_V));
   signals.battery_current_A = thinner.smooth(thinner.reading(log.battery_current_A));
   signals.battery_power_W =

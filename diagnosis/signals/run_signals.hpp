@@ -82,6 +82,8 @@ struct RunSignals {
   Eigen::VectorXd battery_power_W{};
   Eigen::VectorXd battery_voltage_V{};
   Eigen::VectorXd battery_current_A{};
+  /// Samples that show a new reading of a slow battery monitor. Empty: all.
+  std::vector<bool> battery_read{};
   Eigen::VectorXd gyro_yaw_rate_rad_s{};
   Eigen::VectorXd x_m{};
   Eigen::VectorXd y_m{};

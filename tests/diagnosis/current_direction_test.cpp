@@ -40,8 +40,7 @@ Dataset with_drop(double drop_V, double resistance_factor = 1) {
   Dataset dataset{.robot = testing::nomad()};
   for (Side side : kSides) dataset.robot.motor[side].resistance_ohm *= resistance_factor;
   Robot real = dataset.robot;
-  if (drop_V > 0)
-    real.effects = {{.name = "driver_voltage_drop", .parameters = {{"voltage_V", drop_V}}}};
+  if (drop_V > 0) real.effects = {{.name = "driver_voltage_drop", .parameters = {{"voltage_V", drop_V}}}};
   for (unsigned r = 0; r < 8; ++r)
     dataset.runs.push_back(testing::synthetic_run(real, "run_" + std::to_string(r), 20, r % 2 == 0 ? 0 : 8,
                                                   stop_and_go(0.3 + 0.05 * r, 0.25 + 0.05 * (r % 4)),
@@ -80,18 +79,19 @@ TEST(CurrentDirection, IsTheColumnOfADriversDrop) {
 /// Of a small current within the noise of its samples, the mean tells the sign; noise at rest has none.
 TEST(CurrentDirection, OfSamplesWithinTheirNoiseIsThatOfTheirMean) {
   joulepath::Run run = testing::synthetic_run(testing::nomad(), "slow", 20, 0, testing::constant_speed(0.1),
-                                   {0.001, 0.3, 0.01});
+                                              {0.001, 0.3, 0.01});
   const RunSignals moving = make_run_signals(run, 0, testing::nomad());
   EXPECT_GT(moving.current_direction.left.mean(), 0.95);
   run = testing::synthetic_run(testing::nomad(), "rest", 20, 0, testing::constant_speed(0), {0.001, 0.03, 0});
   const RunSignals resting = make_run_signals(run, 0, testing::nomad());
   EXPECT_LT(std::abs(resting.current_direction.left.mean()), 0.15);
   EXPECT_LT(resting.current_direction.left.cwiseAbs().mean(), 0.35);
-  EXPECT_EQ(make_run_signals({.name = "none", .log = {.time_s = run.log.time_s,
-                                                      .wheel_speed_rad_s = run.log.wheel_speed_rad_s}},
-                             0, testing::nomad())
-                .current_direction.left.size(),
-            0);
+  EXPECT_EQ(
+      make_run_signals(
+          {.name = "none", .log = {.time_s = run.log.time_s, .wheel_speed_rad_s = run.log.wheel_speed_rad_s}},
+          0, testing::nomad())
+          .current_direction.left.size(),
+      0);
 }
 
 TEST(DriverDrop, IsFoundWithItsSizeWhereCurrentsChangeTheirSign) {
@@ -104,7 +104,8 @@ TEST(DriverDrop, IsFoundWithItsSizeWhereCurrentsChangeTheirSign) {
   }
 }
 
-/// A drop of 1 V over a winding of 0.27 ohm looks like a greater resistance, and like a shift of the readings.
+/// A drop of 1 V over a winding of 0.27 ohm looks like a greater resistance, and like a shift of the
+/// readings.
 TEST(DriverDrop, IsNeitherAForeignWindingNorADelay) {
   const Dataset dataset = with_drop(1, 0.1);
   EXPECT_TRUE(foreign_constants(dataset.robot, signals_of(dataset)).empty());

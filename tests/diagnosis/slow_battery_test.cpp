@@ -1,0 +1,74 @@
+// A battery monitor that reads once a second beside a driver that reads every sample: its readings hold, are
+// means since the reading before, or are drawn as lines between readings.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "diagnosis/values/diagnosis.hpp"
+#include "tests/support/blind_day.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::blind_day;
+using testing::have_blind_plant;
+
+enum class Monitor { holds, averages, drawn_as_lines };
+
+std::vector<double> read_slowly(const std::vector<double>& channel, std::size_t every, Monitor monitor) {
+  std::vector<double> slow(channel.size());
+  const auto at = [&](std::size_t i) { return channel[std::min(i, channel.size() - 1)]; };
+  for (std::size_t i = 0; i < slow.size(); ++i) {
+    const std::size_t from = i / every * every;
+    const double share = static_cast<double>(i - from) / static_cast<double>(every);
+    if (monitor == Monitor::holds) slow[i] = channel[from];
+    if (monitor == Monitor::drawn_as_lines) slow[i] = (1 - share) * at(from) + share * at(from + every);
+    if (monitor == Monitor::averages) {
+      const auto first = channel.begin() + static_cast<std::ptrdiff_t>(from < every ? 0 : from - every);
+      const auto last = channel.begin() + static_cast<std::ptrdiff_t>(from);
+      slow[i] = first == last ? channel[0] : std::accumulate(first, last, 0.0) / double(last - first);
+    }
+  }
+  return slow;
+}
+
+Dataset with_slow_monitor(Dataset dataset, double period_s, Monitor monitor) {
+  for (joulepath::Run& run : dataset.runs) {
+    Trajectory& log = run.log;
+    const auto every = static_cast<std::size_t>(std::lround(period_s / (log.time_s[1] - log.time_s[0])));
+    log.battery_current_A = read_slowly(log.battery_current_A, every, monitor);
+    log.battery_voltage_V = read_slowly(log.battery_voltage_V, every, monitor);
+  }
+  return dataset;
+}
+
+constexpr std::array kMonitors{Monitor::holds, Monitor::averages, Monitor::drawn_as_lines};
+
+TEST(SlowBatteryMonitor, IsNoGap) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const double period_s : {0.5, 1.0, 2.0})
+    for (const Monitor monitor : kMonitors) {
+      const Diagnosis d =
+          diagnose(with_slow_monitor(blind_day("none", 0, 0, 12, 31), period_s, monitor), {.bootstrap = 0});
+      EXPECT_EQ(d.verdict, Verdict::no_gap)
+          << verdict_name(d.verdict) << ' ' << period_s << " s, monitor " << static_cast<int>(monitor);
+    }
+}
+
+TEST(SlowBatteryMonitor, ShowsAStandbyPower) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const Monitor monitor : kMonitors) {
+    const Diagnosis d = diagnose(
+        with_slow_monitor(blind_day("standby_power_error", 3.0, 0, 12, 32), 1.0, monitor), {.bootstrap = 0});
+    ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict) << ", monitor " << static_cast<int>(monitor);
+    EXPECT_EQ(d.causes[0].effect.name, "standby_power_error");
+    EXPECT_NEAR(d.causes[0].parameters[0].value, 3.0, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace joulepath
