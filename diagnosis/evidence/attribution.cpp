@@ -126,7 +126,8 @@ double score_added(const LinearProblem& problem, const Equations& equations, con
 /// What a candidate's evidence is above what it takes to name it; below 0: it is not named. Any is enough at
 /// the materiality floor and above, below it alone it must add a minimum.
 /// Inexact forms of a large effect bring a small share of its evidence, so the minimum includes that share,
-/// in proportion to the part of the signature that the other effects can reproduce.
+/// in proportion to the part of the signature that the other effects can reproduce. A small delay is a
+/// convention: a log's stamp may be at a sample's beginning, middle or end.
 double spare_evidence(const LinearProblem& problem, const Equations& equations,
                       const Explanation& explanation, int candidate, const SearchOptions& options,
                       double empty_evidence) {
@@ -134,11 +135,11 @@ double spare_evidence(const LinearProblem& problem, const Equations& equations,
   if (std::ranges::count(explanation.small, candidate) == 0) return added;
   const double size = explanation.size[static_cast<std::size_t>(
       std::ranges::find(explanation.candidates, candidate) - explanation.candidates.begin())];
-  if (size < kLeastSize) return -std::numeric_limits<double>::infinity();
+  const Candidate& law = equations.candidates[static_cast<std::size_t>(candidate)];
+  if (size < kLeastSize || law.effect().delays_channels) return -std::numeric_limits<double>::infinity();
   const double needed =
-      evidence_needed(equations.candidates[static_cast<std::size_t>(candidate)], size, options) +
-      ghost_share(problem, equations, explanation, candidate) * kShareOfFormError *
-          std::max(0.0, explanation.score);
+      evidence_needed(law, size, options) + ghost_share(problem, equations, explanation, candidate) *
+                                                kShareOfFormError * std::max(0.0, explanation.score);
   return evidence_beyond_model_error(added, size) - needed;
 }
 

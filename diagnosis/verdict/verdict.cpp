@@ -35,6 +35,16 @@ double evidence_of_small(const Examination& x) {
   return most;
 }
 
+/// Whether a constant is of the log's stamps, which name a sample's beginning, middle or end, and deviates by
+/// less than a delay that counts.
+bool is_convention_of_stamps(const Examination& x, int column) {
+  const int c = effect_of_constant(x.id, column);
+  if (c < 0 || !x.id.equations.candidates[static_cast<std::size_t>(c)].effect().delays_channels) return false;
+  const std::string label = x.id.equations.candidates[static_cast<std::size_t>(c)].label();
+  return std::ranges::any_of(x.id.below_materiality,
+                             [&](const SmallEffect& small) { return small.effect == label; });
+}
+
 /// The calibration constant (its column) that is furthest beyond its uncertainty, where nothing else won, or
 /// where no law of the catalog changes it and it explains more than the best set does; none: -1. A constant
 /// that explains less than an effect too small to count only stands in for it.
@@ -44,7 +54,7 @@ int constant_that_wins(const Examination& x, bool nothing_won) {
   if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return -1;
   const int column = nothing.held.front();
   const double score = score_of_constant(x.id, column);
-  if (score < evidence_of_small(x)) return -1;
+  if (score < evidence_of_small(x) || is_convention_of_stamps(x, column)) return -1;
   if (nothing_won) return column;
   return effect_of_constant(x.id, column) < 0 && score > x.best().score ? column : -1;
 }
