@@ -19,7 +19,7 @@ namespace {
 
 /// Starts, brakes within `ramp_s` and rests, again and again, every other time backward: the current changes
 /// its sign twice in each cycle.
-testing::MotionLaw stop_and_go(double speed_m_s, double ramp_s) {
+testing::MotionLaw starting_and_braking(double speed_m_s, double ramp_s) {
   return [=](double t) {
     const double cycle_s = 2 * ramp_s + 1.5, at_s = std::fmod(t, cycle_s), brake_s = ramp_s + 0.8;
     const double sign = std::fmod(t, 2 * cycle_s) < cycle_s ? 1.0 : -1.0, rate = speed_m_s / ramp_s;
@@ -43,7 +43,7 @@ Dataset with_drop(double drop_V, double resistance_factor = 1) {
   if (drop_V > 0) real.effects = {{.name = "driver_voltage_drop", .parameters = {{"voltage_V", drop_V}}}};
   for (unsigned r = 0; r < 8; ++r)
     dataset.runs.push_back(testing::synthetic_run(real, "run_" + std::to_string(r), 20, r % 2 == 0 ? 0 : 8,
-                                                  stop_and_go(0.3 + 0.05 * r, 0.25 + 0.05 * (r % 4)),
+                                                  starting_and_braking(0.3 + 0.05 * r, 0.25 + 0.05 * (r % 4)),
                                                   {0.002, 0.01, 0.01}, r + 1));
   return dataset;
 }
