@@ -42,16 +42,18 @@ bool measures_windings(const RunSignals& run) {
   });
 }
 
-/// V = R i + Kv n w + a drop that has the current's sign, of both wheels.
+/// V = R i + Kv n w of both wheels; with a third term, a driver's drop, which has the current's sign.
+template <int N>
 bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
-  SmallFit<3> fit;
+  SmallFit<N> fit;
   for (const RunSignals& run : runs)
     for (Side side : kSides)
       for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j)
-        if (run.conducting[side][static_cast<std::size_t>(j)])
-          fit.add(
-              {run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j], run.current_direction[side][j]},
-              run.motor_voltage_V[side][j]);
+        if (run.conducting[side][static_cast<std::size_t>(j)]) {
+          const Eigen::Vector3d row(run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j],
+                                    run.current_direction[side][j]);
+          fit.add(row.head<N>(), run.motor_voltage_V[side][j]);
+        }
   std::array<double, 2> value{}, error{};
   const Motor& motor = robot.motor.left;
   return fit.solve(value, error) &&
@@ -107,16 +109,26 @@ bool is_scaled_channel(const std::vector<LogRatio>& ratios) {
   });
 }
 
-}  // namespace
-
-std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs,
-                                               bool may_be_scaled) {
+/// Constants that differ from the file's by more than effects can. `N`: terms of the winding's law.
+template <int N>
+std::vector<ForeignConstant> foreign_by(const Robot& robot, const std::vector<RunSignals>& runs,
+                                        bool may_be_scaled) {
   std::vector<LogRatio> ratios;
-  if (!add_windings(robot, runs, ratios) || !add_inertia(robot, runs, ratios)) return {};
+  if (!add_windings<N>(robot, runs, ratios) || !add_inertia(robot, runs, ratios)) return {};
   if (may_be_scaled && is_scaled_channel(ratios)) return {};
   std::vector<ForeignConstant> foreign;
   for (const LogRatio& one : ratios)
     if (one.is_foreign()) foreign.push_back(one.constant);
+  return foreign;
+}
+
+}  // namespace
+
+std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs,
+                                               bool may_be_scaled) {
+  const std::vector<ForeignConstant> foreign = foreign_by<2>(robot, runs, may_be_scaled);
+  // What a driver's drop explains is no other robot's winding.
+  if (foreign.empty() || foreign_by<3>(robot, runs, may_be_scaled).empty()) return {};
   return foreign;
 }
 

@@ -104,10 +104,10 @@ TEST(DriverDrop, IsFoundWithItsSizeWhereCurrentsChangeTheirSign) {
   }
 }
 
-/// A drop of 1 V over a winding of 0.27 ohm looks like a greater resistance, and like a shift of the
+/// A drop of 0.35 V over a winding of 0.05 ohm looks like a greater resistance, and like a shift of the
 /// readings.
 TEST(DriverDrop, IsNeitherAForeignWindingNorADelay) {
-  const Dataset dataset = with_drop(1, 0.1);
+  const Dataset dataset = with_drop(0.35, 0.02);
   EXPECT_TRUE(foreign_constants(dataset.robot, signals_of(dataset)).empty());
   std::vector<std::size_t> all(dataset.runs.size());
   for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
