@@ -398,7 +398,7 @@ inline constexpr double kMaterialHeading_rad = 0.03;
 inline constexpr double kMaterialPosition = 0.006;
 /// Shorter runs count as this long for kMaterialPosition. Declared.
 inline constexpr double kLeastTravelled_m = 0.5;
-/// Of the electrical channels. Declared (0503: half a sample is a delay).
+/// Of the electrical channels. Declared (0503: half a sample is a convention).
 inline constexpr double kMaterialDelay_samples = 0.6;
 
 // Unknown terms, and calibration constants beyond their uncertainty.
