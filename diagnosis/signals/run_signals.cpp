@@ -22,7 +22,8 @@ namespace {
 
 using Samples = std::vector<double>;
 
-/// The log on a uniform grid: unchanged where its period is steady, else interpolated.
+/// The log on a uniform grid: unchanged where its period is steady, else interpolated. Rounded stamps have
+/// the steady period in their mean.
 struct UniformLog {
   Samples time_s{};
   double period_s{};
@@ -35,8 +36,11 @@ UniformLog uniform_grid(const Samples& time_s) {
   UniformLog grid{.time_s = time_s, .period_s = upper_median(std::move(steps)), .resampled = false};
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
     grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > kUnevenPeriod * grid.period_s;
-  if (!grid.resampled) return grid;
   const double length_s = time_s.back() - time_s.front();
+  if (!grid.resampled) {
+    grid.period_s = length_s / static_cast<double>(time_s.size() - 1);
+    return grid;
+  }
   grid.period_s = std::max(grid.period_s, length_s / (kMostGrowth * static_cast<double>(time_s.size())));
   grid.time_s.clear();
   for (double t = time_s.front(); t <= time_s.back() + 1e-9; t += grid.period_s) grid.time_s.push_back(t);

@@ -48,6 +48,25 @@ TEST(RunSignals, LinesPassUnchanged) {
   }
 }
 
+/// 33 samples a second, stamped in whole milliseconds: most steps are 30 ms, their mean is 30.3 ms.
+TEST(RunSignals, TimeIsThatOfTheClockWhereStampsAreRounded) {
+  joulepath::Run run{.name = "rounded"};
+  for (int i = 0; i < 400; ++i) {
+    const double t = (i + 1) / 33.0;
+    run.log.time_s.push_back(std::round(1000 * t) / 1000);
+    run.log.wheel_speed_rad_s.left.push_back(2.0);
+    run.log.wheel_speed_rad_s.right.push_back(kAcceleration_rad_s2 * t);
+  }
+  const RunSignals signals = make_run_signals(run, 0, testing::nomad());
+  const Eigen::Index last = signals.size() - 1;
+  const double length_s = signals.time_s[last] - signals.time_s[0];
+  EXPECT_NEAR(signals.wheel_angle_rad.left[last] - signals.wheel_angle_rad.left[0], 2.0 * length_s,
+              1e-3 * 2.0 * length_s);
+  EXPECT_NEAR(signals.period_s * static_cast<double>(last), length_s, 1e-3 * length_s);
+  EXPECT_NEAR(signals.wheel_acceleration_rad_s2.right[last / 2], kAcceleration_rad_s2,
+              1e-3 * kAcceleration_rad_s2);
+}
+
 /// V i where both are measured, (R i + Kv n q') i where the voltage is not.
 TEST(RunSignals, PowerIsThatOfEachSample) {
   const Robot robot = testing::nomad();
