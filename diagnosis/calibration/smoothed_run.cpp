@@ -114,8 +114,10 @@ Braking braking(const std::vector<double>& speed, const SplineKernel& kernel) {
   return found;
 }
 
-void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
+/// `kernel_period_s`: at which the kernel takes its samples; rounded stamps have another median than mean.
+void append_smoothed(const Stretch& stretch, double kernel_period_s, SmoothedRun& run) {
   const SplineKernel& kernel = run.kernel;
+  const double slope_factor = kernel_period_s / stretch.period_s;
   const std::size_t reach = kernel.reach(), count = stretch.payload.size();
   const Sided<Braking> braked{braking(stretch.speed.left, kernel), braking(stretch.speed.right, kernel)};
   for (std::size_t i = reach; i + reach < count; ++i) {
@@ -125,9 +127,9 @@ void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
     bool finite = true;
     for (Side side : kSides) {
       sample.speed_rad_s[side] = weighted(kernel.value, stretch.speed[side], i);
-      sample.acceleration_rad_s2[side] = weighted(kernel.derivative, stretch.speed[side], i);
+      sample.acceleration_rad_s2[side] = slope_factor * weighted(kernel.derivative, stretch.speed[side], i);
       sample.current_A[side] = weighted(kernel.value, stretch.current[side], i);
-      sample.current_slope_A_s[side] = weighted(kernel.derivative, stretch.current[side], i);
+      sample.current_slope_A_s[side] = slope_factor * weighted(kernel.derivative, stretch.current[side], i);
       sample.voltage_V[side] = run.has_voltage ? weighted(kernel.value, stretch.voltage[side], i)
                                                : std::numeric_limits<double>::quiet_NaN();
       sample.turning[side] = turns_one_way(stretch.speed[side], i, reach) &&
@@ -154,7 +156,8 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   std::size_t first = 0;
   for (std::size_t i = 1; i <= log.size(); ++i) {
     if (i < log.size() && log.time_s[i] - log.time_s[i - 1] < kLongestGap_periods * period_s) continue;
-    if (i - first > 2 * run.kernel.reach() + 1) append_smoothed(stretch_of(source, speeds, first, i), run);
+    if (i - first > 2 * run.kernel.reach() + 1)
+      append_smoothed(stretch_of(source, speeds, first, i), period_s, run);
     first = i;
   }
   return run;

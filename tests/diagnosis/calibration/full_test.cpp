@@ -71,6 +71,22 @@ TEST(FullCalibration, OfDataWithoutNoiseGivesTheParametersBack) {
   EXPECT_GT(result.current_rms_before_A, 1e-3);
 }
 
+/// 33 samples a second, stamped in whole milliseconds: the median step is 30 ms, the mean 30.3 ms.
+TEST(FullCalibration, TimeIsThatOfTheClockWhereStampsAreRounded) {
+  Dataset exact{.file = "dataset.yaml", .robot = nomad()};
+  for (double kg : {0.0, 5.0, 10.0})
+    for (double yaw_rad_s : {0.0, 0.5})
+      exact.runs.push_back(
+          synthetic_run(true_robot(), "run", 10, kg, swinging(0.5, 0.25, 1.3, yaw_rad_s), {}, 1, 1 / 33.0));
+  Dataset rounded = exact;
+  for (joulepath::Run& run : rounded.runs)
+    for (double& t : run.log.time_s) t = std::round(1000 * t) / 1000;
+  const CalibrationResult of_exact = calibrate(exact, CalibrationMethod::full),
+                          of_rounded = calibrate(rounded, CalibrationMethod::full);
+  for (const char* name : {"straight_inertia_kg_m2", "turning_inertia_kg_m2", "payload_factor"})
+    EXPECT_NEAR(parameter(of_rounded, name).value / parameter(of_exact, name).value, 1, 2e-3) << name;
+}
+
 TEST(FullCalibration, AccountsForADisplacedCenterOfMass) {
   Robot truth = true_robot();
   Dataset dataset = dataset_of(truth, {});
