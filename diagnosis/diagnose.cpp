@@ -18,6 +18,7 @@
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/evidence/velocity_filter_search.hpp"
 #include "diagnosis/next_run/next_run.hpp"
+#include "diagnosis/signals/held_readings.hpp"
 #include "diagnosis/simulator/simulated_runs.hpp"
 #include "diagnosis/where/localize.hpp"
 #include "model/effects/catalog.hpp"
@@ -424,9 +425,14 @@ Diagnosis diagnose_simulator(Dataset dataset, const DiagnoseOptions& options) {
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   refuse_short_runs(dataset);
-  Diagnosis diagnosis = std::ranges::any_of(dataset.runs, has_prediction)
-                            ? diagnose_simulator(dataset, options)
-                            : diagnose_robot(dataset, options);
+  const bool holds = holds_readings(dataset);
+  const Dataset lines = holds ? between_readings(dataset) : Dataset{};
+  const Dataset& read = holds ? lines : dataset;
+  Diagnosis diagnosis = std::ranges::any_of(read.runs, has_prediction) ? diagnose_simulator(read, options)
+                                                                       : diagnose_robot(read, options);
+  if (holds)
+    diagnosis.notes.push_back(
+        "channels repeat their readings over several samples: they are read as lines between the readings");
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;
 }

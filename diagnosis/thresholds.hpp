@@ -68,8 +68,9 @@ inline constexpr double kLongestNoisePeriod_s = 0.2;
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Below it the direction of a wheel's rotation is uncertain. Chosen.
 inline constexpr double kBlurredWheel_rad_s = 0.2;
-/// The same of a sample's, in standard deviations of its noise: one in 16,000 samples is beyond. Chosen.
-inline constexpr double kWheelOverNoise = 4.0;
+/// The same of a sample's speed or current, in standard deviations of its noise: one in 16,000 samples is
+/// beyond. Chosen.
+inline constexpr double kSampleOverNoise = 4.0;
 /// The least of it. Physical scale: an encoder without noise.
 inline constexpr double kStillWheel_rad_s = 0.02;
 /// The same of the body's speed. Physical scale: a log's noise.
@@ -247,6 +248,16 @@ inline constexpr std::ptrdiff_t kLongNoiseLag = 30;
 /// Least variance of that short noise over the mean square of the changes over kShortNoiseLag. Chosen (0502):
 /// guards logs where the walk is all.
 inline constexpr double kLeastShortNoise = 0.05;
+/// A channel that changes less often tells no hold of its readings. Chosen: guards channels at rest.
+inline constexpr std::size_t kLeastReadings = 20;
+/// Part of the changes that are as far apart as the lower tenth of them, to a sample, where a channel holds
+/// its readings. Chosen: the others lie beside a rest.
+inline constexpr double kRegularReadings = 0.8;
+/// Half of a channel's changes over the lower tenth: of steps to which it is rounded less, since they are all
+/// alike. Chosen: noise has a factor of 5.
+inline constexpr double kOfOneStep = 1.5;
+/// Readings of a pose so many 1-sigma widths of the smoothing apart are seen one by one. Chosen (0500).
+inline constexpr double kBlurredReadings = 2;
 /// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
 inline constexpr double kResolution = 5e-4;
 /// The same of voltages: a duty cycle is set, not sensed, and finer. Physical scale.

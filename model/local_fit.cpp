@@ -40,11 +40,40 @@ LocalFit fit_locally(const std::vector<double>& time_s, const std::vector<double
   return fit;
 }
 
+namespace {
+
+/// Where lines between readings bend, at even distances; empty for values that are no such lines.
+std::vector<double> readings_on_lines(const std::vector<double>& values, double smallest_bend) {
+  constexpr std::size_t kLeastReadings = 20;
+  std::vector<double> readings;
+  std::vector<std::size_t> steps;
+  std::size_t last = 0;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    if (std::abs(values[i - 1] - 2 * values[i] + values[i + 1]) <= smallest_bend) continue;
+    if (last > 0) steps.push_back(i - last);
+    readings.push_back(values[i]);
+    last = i;
+  }
+  if (readings.size() < kLeastReadings) return {};
+  const std::size_t step = upper_median(steps);
+  const auto even =
+      std::count_if(steps.begin(), steps.end(), [&](std::size_t s) { return s == step || s == step + 1; });
+  return 2 * even > static_cast<std::ptrdiff_t>(steps.size()) ? readings : std::vector<double>();
+}
+
+}  // namespace
+
 double noise_of(const std::vector<double>& values) {
   if (values.size() < 5) return 0.0;
   std::vector<double> size;
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
     size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
+  const double greatest = *std::max_element(size.begin(), size.end());
+  constexpr double kRounding = 1e-9;
+  if (const double half = upper_median(size); half <= kRounding * greatest) {
+    const std::vector<double> readings = readings_on_lines(values, kRounding * greatest);
+    return readings.size() < values.size() / 2 + 1 && !readings.empty() ? noise_of(readings) : 0.0;
+  }
   // Second differences of white noise have 6 times its variance.
   return upper_median(std::move(size)) / 0.6745 / std::sqrt(6.0);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -39,10 +40,13 @@ Sided<std::vector<double>> wheel_speeds(const Trajectory& log, const Geometry& g
   return speeds;
 }
 
-double median_period_s(const std::vector<double>& time_s) {
-  std::vector<double> periods;
-  for (std::size_t i = 1; i < time_s.size(); ++i) periods.push_back(time_s[i] - time_s[i - 1]);
-  return upper_median(std::move(periods));
+/// Mean step but for gaps: rounded stamps have another median.
+double mean_period_s(const std::vector<double>& time_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  const double longest_s = kLongestGap_periods * upper_median(steps);
+  std::erase_if(steps, [&](double step_s) { return step_s >= longest_s; });
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
 /// Samples [first, last) of a channel at even steps, unchanged where the log's steps are even.
@@ -114,10 +118,8 @@ Braking braking(const std::vector<double>& speed, const SplineKernel& kernel) {
   return found;
 }
 
-/// `kernel_period_s`: at which the kernel takes its samples; rounded stamps have another median than mean.
-void append_smoothed(const Stretch& stretch, double kernel_period_s, SmoothedRun& run) {
+void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
   const SplineKernel& kernel = run.kernel;
-  const double slope_factor = kernel_period_s / stretch.period_s;
   const std::size_t reach = kernel.reach(), count = stretch.payload.size();
   const Sided<Braking> braked{braking(stretch.speed.left, kernel), braking(stretch.speed.right, kernel)};
   for (std::size_t i = reach; i + reach < count; ++i) {
@@ -127,9 +129,9 @@ void append_smoothed(const Stretch& stretch, double kernel_period_s, SmoothedRun
     bool finite = true;
     for (Side side : kSides) {
       sample.speed_rad_s[side] = weighted(kernel.value, stretch.speed[side], i);
-      sample.acceleration_rad_s2[side] = slope_factor * weighted(kernel.derivative, stretch.speed[side], i);
+      sample.acceleration_rad_s2[side] = weighted(kernel.derivative, stretch.speed[side], i);
       sample.current_A[side] = weighted(kernel.value, stretch.current[side], i);
-      sample.current_slope_A_s[side] = slope_factor * weighted(kernel.derivative, stretch.current[side], i);
+      sample.current_slope_A_s[side] = weighted(kernel.derivative, stretch.current[side], i);
       sample.voltage_V[side] = run.has_voltage ? weighted(kernel.value, stretch.voltage[side], i)
                                                : std::numeric_limits<double>::quiet_NaN();
       sample.turning[side] = turns_one_way(stretch.speed[side], i, reach) &&
@@ -147,7 +149,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   if (log.size() < 20 || speeds.left.empty() || log.motor_current_A.left.empty() ||
       log.motor_current_A.right.empty())
     return std::nullopt;
-  const double period_s = median_period_s(log.time_s);
+  const double period_s = mean_period_s(log.time_s);
   SmoothedRun run{.name = source.name,
                   .has_voltage = !log.motor_voltage_V.left.empty() && !log.motor_voltage_V.right.empty(),
                   .unsigned_currents = source.current_sign_from_motion,
@@ -156,8 +158,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   std::size_t first = 0;
   for (std::size_t i = 1; i <= log.size(); ++i) {
     if (i < log.size() && log.time_s[i] - log.time_s[i - 1] < kLongestGap_periods * period_s) continue;
-    if (i - first > 2 * run.kernel.reach() + 1)
-      append_smoothed(stretch_of(source, speeds, first, i), period_s, run);
+    if (i - first > 2 * run.kernel.reach() + 1) append_smoothed(stretch_of(source, speeds, first, i), run);
     first = i;
   }
   return run;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/checks/small_fit.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -109,14 +110,16 @@ bool is_scaled_channel(const std::vector<LogRatio>& ratios) {
   });
 }
 
-/// Constants that differ from the file's by more than effects can. `N`: terms of the winding's law.
+/// Constants that differ from the file's by more than effects can; nothing where the runs do not determine
+/// them. `N`: terms of the winding's law.
 template <int N>
-std::vector<ForeignConstant> foreign_by(const Robot& robot, const std::vector<RunSignals>& runs,
-                                        bool may_be_scaled) {
+std::optional<std::vector<ForeignConstant>> foreign_by(const Robot& robot,
+                                                       const std::vector<RunSignals>& runs,
+                                                       bool may_be_scaled) {
   std::vector<LogRatio> ratios;
-  if (!add_windings<N>(robot, runs, ratios) || !add_inertia(robot, runs, ratios)) return {};
-  if (may_be_scaled && is_scaled_channel(ratios)) return {};
+  if (!add_windings<N>(robot, runs, ratios) || !add_inertia(robot, runs, ratios)) return std::nullopt;
   std::vector<ForeignConstant> foreign;
+  if (may_be_scaled && is_scaled_channel(ratios)) return foreign;
   for (const LogRatio& one : ratios)
     if (one.is_foreign()) foreign.push_back(one.constant);
   return foreign;
@@ -126,10 +129,11 @@ std::vector<ForeignConstant> foreign_by(const Robot& robot, const std::vector<Ru
 
 std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs,
                                                bool may_be_scaled) {
-  const std::vector<ForeignConstant> foreign = foreign_by<2>(robot, runs, may_be_scaled);
+  std::vector<ForeignConstant> foreign =
+      foreign_by<2>(robot, runs, may_be_scaled).value_or(std::vector<ForeignConstant>{});
+  if (foreign.empty()) return foreign;
   // What a driver's drop explains is no other robot's winding.
-  if (foreign.empty() || foreign_by<3>(robot, runs, may_be_scaled).empty()) return {};
-  return foreign;
+  return foreign_by<3>(robot, runs, may_be_scaled).value_or(foreign);
 }
 
 }  // namespace joulepath

@@ -21,7 +21,6 @@ constexpr double kPiece_m = 0.3;           ///< well above the noise of a locali
 constexpr double kPiece_rad = 0.2;         ///< the same
 constexpr double kStraightest_rad = 0.15;  ///< arc and chord differ by less than 0.1 %
 constexpr double kBentest_rad = 0.5;  ///< the same after the correction of a circle, by the measured heading
-constexpr double kBlurredReadings = 2;  ///< readings that many 1-sigma widths of the smoothing apart are seen
 constexpr double kLeastTold = 0.03;     ///< creep that no fit separates from the radius is smaller
 constexpr double kMostDissent = 1.0 / 3;  ///< of a deviation, between a part of the pieces and all
 constexpr std::size_t kPiecesToDissent = 4;

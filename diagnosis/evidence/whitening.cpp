@@ -121,6 +121,8 @@ NoiseModel estimate_noise(const std::vector<ResidualRows>& runs,
   Covariance sum = Covariance::Zero(), count = Covariance::Zero();
   for (const ResidualRows& run : runs) add_products(noise, run, sum, count);
   Covariance covariance = Covariance::Identity();
+  for (int c = 0; c < kHeading; ++c)  // too few rows for a memory
+    covariance(c, c) = std::pow(noise.channel_sd[static_cast<std::size_t>(c)], 2);
   for (int a = 0; a < kChannelCount; ++a)
     for (int b = 0; b <= a; ++b)
       if (count(a, b) > kLeastSamples && share_noise(a, b))

@@ -254,7 +254,7 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
 /// speed still falls when the wheel is at rest: the direction is that of the speed before it.
 Eigen::VectorXd mean_direction(const Thinner& thinner, const Samples& logged_rad_s) {
   const Samples speed_rad_s = thinner.before_filter(logged_rad_s);
-  const double blurred_rad_s = std::max(kStillWheel_rad_s, kWheelOverNoise * noise_of(speed_rad_s));
+  const double blurred_rad_s = std::max(kStillWheel_rad_s, kSampleOverNoise * noise_of(speed_rad_s));
   if (blurred_rad_s > kBlurredWheel_rad_s) return {};
   Samples direction(speed_rad_s.size());
   std::ranges::transform(speed_rad_s, direction.begin(),
@@ -287,19 +287,21 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   }
 }
 
-/// Samples after which a channel has a new reading: a value that is neither that before it nor on the line
-/// through the two before it, but for the rounding of a float.
+/// Samples with which a channel has a new reading: a value that is neither that before it nor on the line
+/// through the two before it, but for the rounding of a float. A reading between two samples bends the line
+/// at both.
 std::vector<std::size_t> new_readings(const Samples& channel) {
   if (channel.empty()) return {};
-  std::vector<std::size_t> at;
   const auto [least, most] = std::ranges::minmax(channel);
-  const double rounding = 1e-7 * std::max(-least, most);
-  const auto on_line = [&](std::size_t i) {
+  const double rounding = 1e-7 * (most - least);
+  const auto bends = [&](std::size_t i) {
+    if (i < 2 || i >= channel.size() || channel[i] == channel[i - 1]) return false;
     const double step = channel[i] - channel[i - 1], before = channel[i - 1] - channel[i - 2];
-    return std::abs(step - before) <= rounding + 1e-6 * (std::abs(step) + std::abs(before));
+    return std::abs(step - before) > rounding + 1e-6 * (std::abs(step) + std::abs(before));
   };
+  std::vector<std::size_t> at;
   for (std::size_t i = 2; i < channel.size(); ++i)
-    if (channel[i] != channel[i - 1] && !on_line(i)) at.push_back(i);
+    if (bends(i) && !(bends(i + 1) && !bends(i + 2) && !bends(i - 1))) at.push_back(i);
   return at;
 }
 
@@ -361,7 +363,7 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
 /// Mean of the signs of a current's samples: within the kernel a current may change its direction or rest,
 /// which its mean does not tell. Samples within their noise have the sign of their own mean.
 Eigen::VectorXd mean_sign(const Thinner& thinner, const Samples& current_A, double delay_s) {
-  const double noise_A = kWheelOverNoise * noise_of(current_A);
+  const double noise_A = kSampleOverNoise * noise_of(current_A);
   Samples sign(current_A.size()), doubt(current_A.size()), doubtful_A(current_A.size());
   for (std::size_t i = 0; i < sign.size(); ++i) {
     doubt[i] = std::abs(current_A[i]) > noise_A ? 0.0 : 1.0;

@@ -51,10 +51,12 @@ bool is_convention_of_stamps(const Examination& x, int column) {
 int constant_that_wins(const Examination& x, bool nothing_won) {
   const BoxedFit nothing = fit_within_calibration(x.id);
   const double loss = solve(x.id.problem, {}, x.id.dispersion).loss;
-  if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return -1;
-  const int column = nothing.held.front();
+  const auto held =
+      std::ranges::find_if_not(nothing.held, [&](int column) { return is_convention_of_stamps(x, column); });
+  if (held == nothing.held.end() || nothing.loss - loss < kLeastLossOfBox) return -1;
+  const int column = *held;
   const double score = score_of_constant(x.id, column);
-  if (score < evidence_of_small(x) || is_convention_of_stamps(x, column)) return -1;
+  if (score < evidence_of_small(x)) return -1;
   if (nothing_won) return column;
   return effect_of_constant(x.id, column) < 0 && score > x.best().score ? column : -1;
 }

@@ -8,7 +8,9 @@
 #include <numeric>
 #include <vector>
 
+#include "diagnosis/signals/run_signals.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "model/limit_table.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {
@@ -57,6 +59,21 @@ TEST(SlowBatteryMonitor, IsNoGap) {
       EXPECT_EQ(d.verdict, Verdict::no_gap)
           << verdict_name(d.verdict) << ' ' << period_s << " s, monitor " << static_cast<int>(monitor);
     }
+}
+
+/// Readings whose stamps are not the log's, drawn as lines between: each bends two samples.
+TEST(SlowBatteryMonitor, OfAnotherClockIsNoGap) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = blind_day("none", 0, 0, 12, 33);
+  for (joulepath::Run& run : dataset.runs) {
+    std::vector<double> at_s;
+    for (double t = run.log.time_s.front(); t < run.log.time_s.back(); t += 0.973) at_s.push_back(t);
+    for (std::vector<double>* channel : {&run.log.battery_current_A, &run.log.battery_voltage_V})
+      *channel = interpolate(at_s, interpolate(run.log.time_s, *channel, at_s), run.log.time_s);
+  }
+  EXPECT_GT(make_run_signals(dataset.runs[0], 0, dataset.robot).reading_period_s.battery_s, 0.9);
+  const Diagnosis d = diagnose(dataset, {.bootstrap = 0});
+  EXPECT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
 }
 
 TEST(SlowBatteryMonitor, ShowsAStandbyPower) {

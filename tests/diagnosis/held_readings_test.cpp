@@ -1,0 +1,123 @@
+// Logs whose channels repeat their readings: devices that are slower than the log, each with its own clock.
+#include "diagnosis/signals/held_readings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "diagnosis/values/diagnosis.hpp"
+#include "model/local_fit.hpp"
+#include "tests/support/blind_day.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::blind_day;
+using testing::have_blind_plant;
+
+/// Readings `period` samples apart, which need not be a whole number.
+void repeat_readings(std::vector<double>& channel, double period) {
+  const std::vector<double> read = channel;
+  for (std::size_t i = 0; i < channel.size(); ++i)
+    channel[i] = read[static_cast<std::size_t>(std::floor(std::floor(double(i) / period) * period))];
+}
+
+enum Repeating { kWheelsHold = 1, kDriverHolds = 2, kPoseHolds = 4, kGyroHolds = 8 };
+
+Dataset with_held(Dataset dataset, int devices, double period) {
+  for (joulepath::Run& run : dataset.runs) {
+    Trajectory& log = run.log;
+    for (Side side : kSides) {
+      if (devices & kWheelsHold) repeat_readings(log.wheel_speed_rad_s[side], period);
+      if (devices & kDriverHolds)
+        repeat_readings(log.motor_voltage_V[side], period),
+            repeat_readings(log.motor_current_A[side], period);
+    }
+    if (devices & kPoseHolds)
+      repeat_readings(log.position_x_m, period), repeat_readings(log.position_y_m, period);
+    if (devices & kPoseHolds) repeat_readings(log.heading_rad, period);
+    if (devices & kGyroHolds) repeat_readings(log.gyro_yaw_rate_rad_s, period);
+  }
+  return dataset;
+}
+
+TEST(HeldReadings, AreNoGap) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = blind_day("none", 0, 0, 12, 901);
+  for (const double period : {3.0, 2.5})
+    for (const int devices :
+         {kWheelsHold + 0, kDriverHolds + 0, kWheelsHold + kDriverHolds, kPoseHolds + 0, kGyroHolds + 0}) {
+      const Diagnosis d = diagnose(with_held(day, devices, period), {.bootstrap = 0});
+      EXPECT_EQ(d.verdict, Verdict::no_gap)
+          << verdict_name(d.verdict) << ": devices " << devices << " every " << period << " samples";
+    }
+}
+
+TEST(HeldReadings, LeaveACauseItsSize) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = blind_day("viscous_friction", 0.008, 0, 12, 902);
+  for (const int devices : {kWheelsHold + 0, kWheelsHold + kDriverHolds, kPoseHolds + 0}) {
+    const Diagnosis d = diagnose(with_held(day, devices, 3), {.bootstrap = 0});
+    ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict) << ": devices " << devices;
+    EXPECT_EQ(d.causes[0].effect.name, "viscous_friction");
+    EXPECT_NEAR(d.causes[0].parameters[0].value, 0.008, 0.0008);
+  }
+}
+
+/// Between readings lie lines; a value that stays was read again.
+TEST(HeldReadings, AreDrawnAsLines) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<double> read(400);
+  for (std::size_t i = 0; i < read.size(); ++i) read[i] = i < 200 ? normal(random) : 3.0;
+  read[399] = 4.0;
+  std::vector<double> held = read;
+  repeat_readings(held, 4);
+  EXPECT_EQ(hold_of(held), 4u);
+  Dataset dataset{.runs = {{.name = "held"}}};
+  for (std::size_t i = 0; i < held.size(); ++i)
+    dataset.runs[0].log.time_s.push_back(0.02 * static_cast<double>(i));
+  dataset.runs[0].log.gyro_yaw_rate_rad_s = held;
+  EXPECT_TRUE(holds_readings(dataset));
+  const std::vector<double> lines = between_readings(dataset).runs[0].log.gyro_yaw_rate_rad_s;
+  for (std::size_t i = 4; i + 4 < 200; i += 4)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(lines[i + k], read[i] + (read[i + 4] - read[i]) * double(k) / 4, 1e-12) << i + k;
+  for (std::size_t i = 204; i < 396; ++i) EXPECT_EQ(lines[i], 3.0) << i;
+}
+
+/// Between lines the noise is that of the readings.
+TEST(HeldReadings, HaveTheirNoiseOnLines) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  std::vector<double> channel(3000);
+  for (double& value : channel) value = 0.1 * normal(random);
+  repeat_readings(channel, 3);
+  Dataset dataset{.runs = {{.name = "held"}}};
+  Trajectory& log = dataset.runs[0].log;
+  for (std::size_t i = 0; i < channel.size(); ++i) log.time_s.push_back(0.02 * static_cast<double>(i));
+  log.gyro_yaw_rate_rad_s = channel;
+  EXPECT_NEAR(noise_of(between_readings(dataset).runs[0].log.gyro_yaw_rate_rad_s), 0.1, 0.01);
+}
+
+/// Noise, steps of rounding and a channel at rest hold nothing.
+TEST(HeldReadings, AreNotSeenInOtherChannels) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal;
+  std::vector<double> noise(500), rounded(500), slow(500), encoder(500);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const double t = 0.02 * static_cast<double>(i);
+    noise[i] = normal(random);
+    rounded[i] = std::round(20 * std::sin(0.8 * t)) / 20;
+    slow[i] = std::round(57.3 * 0.3 * t);  // a heading in whole degrees
+    encoder[i] = std::floor(40 * std::sin(t) + normal(random)) * 0.1;
+  }
+  for (const auto& channel : {noise, rounded, slow, encoder, std::vector<double>(500, 1.0)})
+    EXPECT_EQ(hold_of(channel), 1u);
+}
+
+}  // namespace
+}  // namespace joulepath
