@@ -61,6 +61,17 @@ std::vector<double> readings_on_lines(const std::vector<double>& values, double 
   return 2 * even > static_cast<std::ptrdiff_t>(steps.size()) ? readings : std::vector<double>();
 }
 
+/// Whether the second differences are those of noise, of which each has a correlation of -2/3 with the next.
+bool is_noisy(const std::vector<double>& values) {
+  double product = 0, square = 0, before = 0;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
+    product += bend * before, square += bend * bend;
+    before = bend;
+  }
+  return product < -square / 3;
+}
+
 }  // namespace
 
 double noise_of(const std::vector<double>& values) {
@@ -70,9 +81,9 @@ double noise_of(const std::vector<double>& values) {
     size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
   const double greatest = *std::max_element(size.begin(), size.end());
   constexpr double kRounding = 1e-9;
-  if (const double half = upper_median(size); half <= kRounding * greatest) {
+  if (upper_median(size) <= kRounding * greatest) {
     const std::vector<double> readings = readings_on_lines(values, kRounding * greatest);
-    return readings.size() < values.size() / 2 + 1 && !readings.empty() ? noise_of(readings) : 0.0;
+    return is_noisy(readings) ? noise_of(readings) : 0.0;
   }
   // Second differences of white noise have 6 times its variance.
   return upper_median(std::move(size)) / 0.6745 / std::sqrt(6.0);
