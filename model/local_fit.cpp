@@ -79,14 +79,17 @@ double noise_of(const std::vector<double>& values) {
   std::vector<double> size;
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
     size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
-  const double greatest = *std::max_element(size.begin(), size.end());
-  constexpr double kRounding = 1e-9;
-  if (upper_median(size) <= kRounding * greatest) {
-    const std::vector<double> readings = readings_on_lines(values, kRounding * greatest);
-    return is_noisy(readings) ? noise_of(readings) : 0.0;
-  }
   // Second differences of white noise have 6 times its variance.
   return upper_median(std::move(size)) / 0.6745 / std::sqrt(6.0);
+}
+
+double noise_of_readings(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double rounding = 1e-9 * (*most - *least);
+  if (const double noise = noise_of(values); noise > rounding) return noise;
+  const std::vector<double> readings = readings_on_lines(values, rounding);
+  return is_noisy(readings) ? noise_of(readings) : 0.0;
 }
 
 }  // namespace joulepath

@@ -18,5 +18,7 @@ struct LocalFit {
 /// Standard deviation of white noise on a smooth channel, from the median size of its second differences
 /// (a robust measure: corners and steps do not count).
 [[nodiscard]] double noise_of(const std::vector<double>& values);
+/// The same of the readings of a channel that may be lines between them, at even distances.
+[[nodiscard]] double noise_of_readings(const std::vector<double>& values);
 
 }  // namespace joulepath

@@ -16,7 +16,7 @@ namespace {
 /// Speeds of the body alone count as exact.
 Eigen::Array3d noise_of_wheel(const Trajectory& log, const RunSignals& run, Side side) {
   const auto of = [](const std::vector<double>& channel, const Eigen::VectorXd& smoothed) {
-    return std::max({noise_of(channel), 1e-6 * rms(smoothed), 1e-12});
+    return std::max({noise_of_readings(channel), 1e-6 * rms(smoothed), 1e-12});
   };
   return {of(log.motor_voltage_V[side], run.motor_voltage_V[side]),
           of(log.motor_current_A[side], run.motor_current_A[side]),

@@ -254,7 +254,7 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
 /// speed still falls when the wheel is at rest: the direction is that of the speed before it.
 Eigen::VectorXd mean_direction(const Thinner& thinner, const Samples& logged_rad_s) {
   const Samples speed_rad_s = thinner.before_filter(logged_rad_s);
-  const double blurred_rad_s = std::max(kStillWheel_rad_s, kSampleOverNoise * noise_of(speed_rad_s));
+  const double blurred_rad_s = std::max(kStillWheel_rad_s, kSampleOverNoise * noise_of_readings(speed_rad_s));
   if (blurred_rad_s > kBlurredWheel_rad_s) return {};
   Samples direction(speed_rad_s.size());
   std::ranges::transform(speed_rad_s, direction.begin(),
@@ -363,7 +363,7 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
 /// Mean of the signs of a current's samples: within the kernel a current may change its direction or rest,
 /// which its mean does not tell. Samples within their noise have the sign of their own mean.
 Eigen::VectorXd mean_sign(const Thinner& thinner, const Samples& current_A, double delay_s) {
-  const double noise_A = kSampleOverNoise * noise_of(current_A);
+  const double noise_A = kSampleOverNoise * noise_of_readings(current_A);
   Samples sign(current_A.size()), doubt(current_A.size()), doubtful_A(current_A.size());
   for (std::size_t i = 0; i < sign.size(); ++i) {
     doubt[i] = std::abs(current_A[i]) > noise_A ? 0.0 : 1.0;
@@ -484,7 +484,7 @@ SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOpt
     Samples mode = thinner.before_filter(wheels.left);
     const Samples right = thinner.before_filter(wheels.right);
     for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = 0.5 * (mode[i] + other * right[i]);
-    const double white = gain * std::pow(noise_of(mode), 2) * static_cast<double>(rate.left.size());
+    const double white = gain * std::pow(noise_of_readings(mode), 2) * static_cast<double>(rate.left.size());
     squares.noise = std::min(squares.noise, white);
   };
   limit(1, noise.accelerations.driving);

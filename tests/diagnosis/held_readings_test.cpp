@@ -100,7 +100,7 @@ TEST(HeldReadings, HaveTheirNoiseOnLines) {
   Trajectory& log = dataset.runs[0].log;
   for (std::size_t i = 0; i < channel.size(); ++i) log.time_s.push_back(0.02 * static_cast<double>(i));
   log.gyro_yaw_rate_rad_s = channel;
-  EXPECT_NEAR(noise_of(between_readings(dataset).runs[0].log.gyro_yaw_rate_rad_s), 0.1, 0.01);
+  EXPECT_NEAR(noise_of_readings(between_readings(dataset).runs[0].log.gyro_yaw_rate_rad_s), 0.1, 0.01);
 }
 
 /// Noise, steps of rounding and a channel at rest hold nothing.
