@@ -60,7 +60,7 @@ def types_of_one_name(root):
             for line in file.read_text().splitlines():
                 if match := re.match(r"namespace ([\w:]+) \{", line):
                     space = match[1]
-                elif match := re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: :[^:].*)? \{", line):
+                elif match := re.match(r"(?:struct|class|enum(?: class)?) (\w+)(?: final)?(?: :[^:].*)? \{", line):
                     homes.setdefault(space + "::" + match[1], set()).add(file.relative_to(root).as_posix())
     return [f"{name} has two definitions: {', '.join(sorted(files))}" for name, files in homes.items() if len(files) > 1]
 
