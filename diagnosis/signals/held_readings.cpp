@@ -1,7 +1,6 @@
 #include "diagnosis/signals/held_readings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "diagnosis/numerics/smoothing.hpp"
@@ -74,10 +73,11 @@ void draw_lines(Trajectory& log) {
 }  // namespace
 
 std::size_t hold_of(const Samples& channel) {
+  constexpr std::size_t kManyReadings = 2000;  // a long log need not be read to its end
   std::vector<std::size_t> lengths;
   Samples jumps;
   std::size_t last = 0;
-  for (std::size_t i = 1; i < channel.size(); ++i)
+  for (std::size_t i = 1; i < channel.size() && lengths.size() < kManyReadings; ++i)
     if (channel[i] != channel[i - 1]) {
       if (last > 0) lengths.push_back(i - last), jumps.push_back(std::abs(channel[i] - channel[i - 1]));
       last = i;
