@@ -27,9 +27,8 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
   out.voltage("current", false,
               [&](Eigen::Index j, Side side) { return current(j, side) * std::abs(current(j, side)); });
   out.voltage("current", false, [&](Eigen::Index j, Side side) { return std::pow(current(j, side), 3); });
-  out.voltage("current", false, [&](Eigen::Index j, Side side) {
-    return s->current_sign(side, j, current(j, side));
-  });
+  out.voltage("current", false,
+              [&](Eigen::Index j, Side side) { return s->current_sign(side, j, current(j, side)); });
   out.known_as("drop by sign");
   for (double corner : {0.4, 0.6, 0.8})
     out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
