@@ -6,16 +6,17 @@
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
+#include "model/median.hpp"
 
 namespace joulepath {
 namespace {
 
 using Samples = std::vector<double>;
 
-/// The value below which this part of some values lies.
+/// The value below which a tenth of some values lies.
 template <class T>
-T quantile(std::vector<T> values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
+T lower_tenth(std::vector<T> values) {
+  const auto at = values.begin() + std::ssize(values) / 10;
   std::ranges::nth_element(values, at);
   return *at;
 }
@@ -83,10 +84,10 @@ std::size_t hold_of(const Samples& channel) {
       last = i;
     }
   if (lengths.size() < kLeastReadings) return 1;
-  const std::size_t hold = quantile(lengths, 0.1);
+  const std::size_t hold = lower_tenth(lengths);
   const auto regular =
       std::ranges::count_if(lengths, [&](std::size_t n) { return n == hold || n == hold + 1; });
-  const bool is_rounded = quantile(jumps, 0.5) < kOfOneStep * quantile(jumps, 0.1);
+  const bool is_rounded = upper_median(jumps) < kOfOneStep * lower_tenth(jumps);
   if (hold < 2 || is_rounded || regular < kRegularReadings * static_cast<double>(lengths.size())) return 1;
   return hold;
 }

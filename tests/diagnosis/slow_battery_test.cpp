@@ -52,10 +52,10 @@ constexpr std::array kMonitors{Monitor::holds, Monitor::averages, Monitor::drawn
 
 TEST(SlowBatteryMonitor, IsNoGap) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = blind_day("none", 0, 0, 12, 31);
   for (const double period_s : {0.5, 1.0, 2.0})
     for (const Monitor monitor : kMonitors) {
-      const Diagnosis d =
-          diagnose(with_slow_monitor(blind_day("none", 0, 0, 12, 31), period_s, monitor), {.bootstrap = 0});
+      const Diagnosis d = diagnose(with_slow_monitor(day, period_s, monitor), {.bootstrap = 0});
       EXPECT_EQ(d.verdict, Verdict::no_gap)
           << verdict_name(d.verdict) << ' ' << period_s << " s, monitor " << static_cast<int>(monitor);
     }
@@ -78,9 +78,9 @@ TEST(SlowBatteryMonitor, OfAnotherClockIsNoGap) {
 
 TEST(SlowBatteryMonitor, ShowsAStandbyPower) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = blind_day("standby_power_error", 3.0, 0, 12, 32);
   for (const Monitor monitor : kMonitors) {
-    const Diagnosis d = diagnose(
-        with_slow_monitor(blind_day("standby_power_error", 3.0, 0, 12, 32), 1.0, monitor), {.bootstrap = 0});
+    const Diagnosis d = diagnose(with_slow_monitor(day, 1.0, monitor), {.bootstrap = 0});
     ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict) << ", monitor " << static_cast<int>(monitor);
     EXPECT_EQ(d.causes[0].effect.name, "standby_power_error");
     EXPECT_NEAR(d.causes[0].parameters[0].value, 3.0, 0.3);
