@@ -153,6 +153,24 @@ std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& eq
   return found;
 }
 
+std::vector<StandIn> likely_rivals(const Equations& equations, const std::vector<Explanation>& explanations,
+                                   int candidate, const Inclusion& inclusion, std::set<std::string> group) {
+  const double own = inclusion.of(equations.candidates[static_cast<std::size_t>(candidate)].label());
+  std::vector<StandIn> rivals;
+  for_each_rival(equations, explanations, candidate, [&](const Explanation&, const std::string& label) {
+    if (group.contains(label) || inclusion.of(label) <= 0 ||
+        std::ranges::count(rivals, label, &StandIn::label) > 0)
+      return;
+    rivals.push_back({label, 2 / kScoreFlattening * std::log(own / inclusion.of(label))});
+  });
+  std::ranges::stable_sort(rivals, std::ranges::less{}, &StandIn::loss_more);
+  std::size_t taken = 0;
+  while (inclusion.of_any(group) < kLeastProbabilityNamed && taken < rivals.size())
+    group.insert(rivals[taken++].label);
+  rivals.resize(inclusion.of_any(group) < kLeastProbabilityNamed ? 0 : taken);
+  return rivals;
+}
+
 std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
                                const Explanation& best, const std::string& label, const std::string& other,
                                double dispersion) {

@@ -49,6 +49,12 @@ struct StandIn {
                                              const std::vector<Explanation>& explanations, int candidate,
                                              double dispersion, const Robot& robot);
 
+/// Effects in the place of one of the best explanation, the likeliest first, until the group is as likely as
+/// a name must be; none where it never is. Runs that favour one law or another by turns are ambiguous.
+[[nodiscard]] std::vector<StandIn> likely_rivals(const Equations& equations,
+                                                 const std::vector<Explanation>& explanations, int candidate,
+                                                 const Inclusion& inclusion, std::set<std::string> group);
+
 /// The combination of two candidates' amplitudes that the data determine, neither alone: "a + k b = c".
 [[nodiscard]] std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
                                              const Explanation& best, const std::string& label,

@@ -92,6 +92,7 @@ void search_about_state(const LogSet& logs, const std::set<std::string>& without
       id.dispersion, runs.size(),
       least_amplitudes(id.signals, robot, id.nuisances, id.state, id.equations.candidates, known));
   id.options.most_members = most;
+  id.options.forms_tell = std::ranges::any_of(id.signals, measures_motors);
   id.explanations = search_explanations(id.problem, id.equations, id.options);
   id.below_materiality = small_effects(id.equations, id.explanations);
   erase_immaterial(id.explanations);
@@ -102,11 +103,37 @@ void adopt_best(const LogSet& logs, Identification& id) {
   const std::vector<std::size_t> runs = every(logs.runs.size());
   const Explanation& best = id.explanations.front();
   const Eigen::VectorXd parameters = fit_parameters(id.equations, runs, best.columns, id.dispersion);
-  Refit fitted = refit(logs, runs, id.nuisances,
-                       adopt(id.equations, id.nuisances, id.state, best, parameters), id.equations.noise,
-                       id.equations.run_variance, id.dispersion, unknown_labels(id.equations, best));
+  Refit fitted =
+      refit(logs, runs, id.nuisances, adopt(id.equations, id.nuisances, id.state, best, parameters),
+            id.equations.noise, id.equations.run_variance, id.dispersion, unknown_labels(id.equations, best));
   id.state = std::move(fitted.state);
   id.signals = std::move(fitted.signals);
+}
+
+/// Whether the best set is that about which the model is linearized.
+bool is_settled(const Identification& id) {
+  return labels_of(id.equations, id.explanations.front()) == labels_of(id.state);
+}
+
+/// Takes the best set over and searches about it again, until the set stays.
+void converge(const LogSet& logs, const std::set<std::string>& without, std::map<std::string, double>& known,
+              Identification& id) {
+  for (int round = 0; round < kRelinearizations; ++round) {
+    adopt_best(logs, id);
+    const NoiseModel noise = id.equations.noise;
+    search_about_state(logs, without, &noise, kMostMembers, known, id);
+    if (is_settled(id)) return;
+  }
+  adopt_best(logs, id);  // the last answer, refitted
+}
+
+/// The best single law, first of all sets. Returns whether there is one.
+bool prefer_single_law(std::vector<Explanation>& explanations) {
+  const auto law = std::ranges::find_if(
+      explanations, [](const Explanation& e) { return e.unknowns.empty() && e.candidates.size() == 1; });
+  if (law == explanations.end()) return false;
+  std::rotate(explanations.begin(), law, law + 1);
+  return true;
 }
 
 }  // namespace
@@ -116,18 +143,14 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
   id.state = first_state(logs, id.nuisances.size(), without);
   id.signals = read_signals(logs, channel_delay_s(id.state));
   std::map<std::string, double> known;
-  NoiseModel noise;
-  for (int round = 0; round <= kRelinearizations; ++round) {  // after the last: its answer, refitted
-    const int most = round == 0 && sees_battery_alone(id.signals) ? 1 : kMostMembers;
-    search_about_state(logs, without, round > 0 ? &noise : nullptr, most, known, id);
-    noise = id.equations.noise;
-    const Explanation& best = id.explanations.front();
-    if ((round > 0 || (best.candidates.empty() && most > 1)) &&
-        labels_of(id.equations, best) == labels_of(id.state))
-      break;
-    adopt_best(logs, id);
-  }
-  return id;
+  const bool battery_alone = sees_battery_alone(id.signals);
+  search_about_state(logs, without, nullptr, battery_alone ? 1 : kMostMembers, known, id);
+  Identification about_law = id;
+  const bool nothing_found = id.explanations.front().candidates.empty() && is_settled(id) && !battery_alone;
+  if (!nothing_found) converge(logs, without, known, id);
+  if (id.explanations.front().unknowns.empty() || !prefer_single_law(about_law.explanations)) return id;
+  converge(logs, without, known, about_law);
+  return about_law.explanations.front().unknowns.empty() ? about_law : id;
 }
 
 std::set<std::string> unknown_labels(const Equations& equations, const Explanation& explanation) {

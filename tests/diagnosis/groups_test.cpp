@@ -65,6 +65,45 @@ TEST(Group, ProbabilityThatOneOfItsMembersIsThereIsAProbability) {
   EXPECT_NEAR(inclusion.of("coulomb_friction"), each.at("coulomb_friction"), 1e-12);
 }
 
+/// Two choices of runs favour one law each: neither is likely enough for a name, both together are.
+TEST(Group, HoldsTheLawsThatRunsFavourByTurns) {
+  Equations equations;
+  equations.candidates = {Candidate{.shape = {.name = "rolling_resistance"}},
+                          Candidate{.shape = {.name = "coulomb_friction"}},
+                          Candidate{.shape = {.name = "viscous_friction"}}};
+  const auto favouring = [](int law) {
+    std::vector<Explanation> sets{
+        {.candidates = {0}}, {.candidates = {1}}, {.candidates = {2}, .score = -400}};
+    sets[static_cast<std::size_t>(law)].score = 400;
+    std::ranges::stable_sort(sets, std::ranges::greater{}, &Explanation::score);
+    return sets;
+  };
+  Inclusion inclusion;
+  inclusion.add(equations, favouring(0), 0.6);
+  inclusion.add(equations, favouring(1), 0.4);
+  const std::vector<StandIn> rivals =
+      likely_rivals(equations, favouring(0), 0, inclusion, {"rolling_resistance"});
+  ASSERT_EQ(rivals.size(), 1u);
+  EXPECT_EQ(rivals[0].label, "coulomb_friction");
+  EXPECT_NEAR(std::exp(-0.5 * kScoreFlattening * rivals[0].loss_more), 0.4 / 0.6, 1e-9);
+  Inclusion sure;
+  sure.add(equations, favouring(0));
+  EXPECT_TRUE(likely_rivals(equations, favouring(0), 0, sure, {"rolling_resistance"}).empty());
+}
+
+/// Rolling resistance beside a slope, which the runs cannot tell from Coulomb friction, is no unknown cause.
+TEST(Group, OfLawsThatRunsFavourByTurnsIsNamed) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d = diagnose(testing::blind_day("--effect rolling_resistance,floor_slope --robot nomad "
+                                                  "--protocol 12 --level 1 --seed 8406711331452625463"),
+                               {.bootstrap = 0});
+  ASSERT_EQ(d.causes.size(), 2u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.causes[0].effect.name, "floor_slope");
+  EXPECT_TRUE(group_holds(d.causes[1], "rolling_resistance"));
+  EXPECT_TRUE(group_holds(d.causes[1], "coulomb_friction"));
+  EXPECT_LT(d.causes[1].probability, 0.7);
+}
+
 TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
   const Diagnosis d =
       diagnose(rolling_day(std::vector<double>(8, 5.0), {0.002, 0.005, 0.01}), {.bootstrap = 20});
