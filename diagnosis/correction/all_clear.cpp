@@ -6,8 +6,11 @@
 #include <limits>
 #include <set>
 
+#include "diagnosis/evidence/boxed_fit.hpp"
+#include "diagnosis/evidence/linear_fit.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/power.hpp"
+#include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/plant.hpp"
 #include "model/text_of_list.hpp"
@@ -122,6 +125,39 @@ std::string hard_words(const std::vector<HardToSee>& hard) {
                              text_of_list(words);
 }
 
+/// Whether the model as it is written misses the measured energy: constants within their uncertainty may
+/// cover a gap that the runs do show.
+bool is_seen(const EnergyGap& measured) {
+  return measured.before_percent > 2 * measured.noise_floor_percent &&
+         measured.before_percent > 100 * kMaterialEnergy;
+}
+
+/// "wheel friction left is 2.1 standard deviations off": the constant that covers a gap by the largest part
+/// of its uncertainty.
+std::string covering_constant(const Examination& x) {
+  const Equations& equations = x.id.equations;
+  const std::vector<int> constants = equations.columns_of(Column::Kind::nuisance);
+  const Eigen::VectorXd value = fit_parameters(equations, every(equations.runs.size()), {}, x.id.dispersion);
+  const auto sigmas = [&](int column) { return std::abs(value[column]) / equations.prior_sd[column]; };
+  const int most = *std::ranges::max_element(constants, {}, sigmas);
+  char text[64];
+  std::snprintf(text, sizeof text, " is %.1f standard deviations off", sigmas(most));
+  return calibration_name(x.id, most) + text;
+}
+
+/// What the runs show without a cause: "no gap is seen", or what covers the one that is.
+std::string gap_in_words(const Examination& x, const EnergyGap& measured) {
+  if (!is_seen(measured)) return "no gap is seen";
+  return "the gap of " + size_text(measured.before_percent) +
+         " of the energy lies within the uncertainty of the robot file's constants (" + covering_constant(x) +
+         ")";
+}
+
+std::string hidden_words(const std::string& gap, const std::string& hidden) {
+  return gap + "; these runs would not show one of " + hidden +
+         ": calibrate, or log more channels or more runs";
+}
+
 }  // namespace
 
 AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured,
@@ -139,8 +175,7 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
             .hard_to_see = hard,
-            .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
-                    " of the energy: log more channels or more runs"};
+            .note = hidden_words(gap_in_words(x, measured), size_text(percent) + " of the energy")};
   std::vector<std::string> hidden;
   for (const HardToSee& one : hard)
     if (one.detectable_percent > kGreatestUnseen_percent) hidden.push_back(one.effect);
@@ -148,16 +183,16 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
             .hard_to_see = hard,
-            .note = "no gap is seen, but these runs would not show one of " +
-                    size_text(kGreatestUnseen_percent) + " of the energy by " + text_of_list(hidden) +
-                    ": log more channels or more runs"};
+            .note = hidden_words(gap_in_words(x, measured), size_text(kGreatestUnseen_percent) +
+                                                                " of the energy by " + text_of_list(hidden))};
   return {.verdict = verdict,
           .detectable_percent = percent,
           .hard_to_see = hard,
           .note = "no gap above " +
                   size_text(std::max({percent, 100 * kMaterialEnergy, measured.before_percent})) +
                   " of the energy (" + std::to_string(std::lround(100 * kShareSeen)) +
-                  " % of such gaps would have been seen)" + hard_words(hard)};
+                  " % of such gaps would have been seen)" + hard_words(hard) +
+                  (is_seen(measured) ? "; " + gap_in_words(x, measured) : "")};
 }
 
 }  // namespace joulepath

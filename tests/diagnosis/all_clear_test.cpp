@@ -45,6 +45,23 @@ TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   EXPECT_TRUE(d.causes.empty());
 }
 
+/// Constants whose stated errors cover a gap leave no cause, and the gap is not called unseen.
+TEST(AllClear, SaysWhichConstantCoversAGap) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset day = quiet_day("--effect dragging_wheel --size 0.02 --protocol 12");
+  day.robot.uncertainty["friction_torque"] = 0.5;
+  const Diagnosis d = diagnose(day, {.bootstrap = 0});
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_GT(d.gap.energy.before_percent, 2 * d.gap.energy.noise_floor_percent);
+  EXPECT_NE(d.notes.back().find("within the uncertainty of the robot file's constants (friction_torque_Nm"),
+            std::string::npos)
+      << d.notes.back();
+  day = quiet_day("--effect none --protocol 12");
+  day.robot.uncertainty["friction_torque"] = 0.5;
+  const Diagnosis silent = diagnose(day, {.bootstrap = 0});
+  EXPECT_EQ(silent.notes.back().find("within the uncertainty"), std::string::npos) << silent.notes.back();
+}
+
 /// A mean over effects hides those that show late: an all-clear names each with the size from which it shows,
 /// and a day with half as much again is none.
 TEST(AllClear, NamesTheEffectsThatShowLate) {
