@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "diagnosis/evidence/inexact_forms.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0504-small-effects-and-groups.md
@@ -194,19 +193,6 @@ std::vector<Explanation> grown_by_one(const Equations& equations, const std::vec
   return grown;
 }
 
-/// A law whose inexact form brings as much of what the set explains as an unknown cause must is a law beside
-/// an unknown cause, and costs as much.
-void charge_inexact_forms(const LinearProblem& problem, const Equations& equations,
-                          const SearchOptions& options, Explanation& explanation) {
-  const double least = kLeastUnknownShare * (problem.residual_square / options.dispersion - explanation.loss);
-  for (int form : inexact_forms(problem, equations, explanation.columns, options.dispersion)) {
-    std::vector<int> exact = explanation.columns;
-    std::erase(exact, form);
-    if (solve(problem, exact, options.dispersion, false).loss - explanation.loss >= least)
-      explanation.score -= kUnknownCost;
-  }
-}
-
 void sort_by_score(std::vector<Explanation>& explanations) {
   std::ranges::stable_sort(explanations, std::ranges::greater{}, &Explanation::score);
 }
@@ -276,11 +262,6 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
     met.insert(met.end(), next.begin(), next.end());
   }
   sort_by_score(met);
-  if (options.forms_tell) {
-    parallel_for(std::min(met.size(), kMostReconsidered),
-                 [&](std::size_t k) { charge_inexact_forms(problem, equations, options, met[k]); });
-    sort_by_score(met);
-  }
   if (std::isfinite(options.small_effect_evidence))
     parallel_for(std::min(met.size(), kMostReconsidered), [&](std::size_t k) {
       std::erase_if(met[k].small, [&](int candidate) {

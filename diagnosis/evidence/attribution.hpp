@@ -35,12 +35,11 @@ struct SearchOptions {
   /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
   std::vector<double> cost_of_unknown{};  ///< log odds against each; the search sets them
-  bool forms_tell{};                      ///< whether an inexact form stands for an unknown cause
 };
 
-/// What log evidence is worth for an effect of a size below the materiality floor. Noise averages out over
-/// the runs, the model's own error does not: in ln LR = a^2/(2 s^2) the variance s^2 of the amplitude has a
-/// part kModelError^2 that no further run makes smaller, so the evidence ends at size^2/(2 kModelError^2).
+/// What log evidence is worth for an effect of a size below the materiality floor. Noise averages out over the
+/// runs, the model's own error does not: in ln LR = a^2/(2 s^2) the variance s^2 of the amplitude has a part
+/// kModelError^2 that no further run makes smaller, so the evidence ends at size^2/(2 kModelError^2).
 [[nodiscard]] double evidence_beyond_model_error(double evidence, double size);
 
 /// Options of a search on this many runs. Of effects below the materiality floor few runs name firm ones

@@ -92,7 +92,6 @@ void search_about_state(const LogSet& logs, const std::set<std::string>& without
       id.dispersion, runs.size(),
       least_amplitudes(id.signals, robot, id.nuisances, id.state, id.equations.candidates, known));
   id.options.most_members = most;
-  id.options.forms_tell = std::ranges::any_of(id.signals, measures_motors);
   id.explanations = search_explanations(id.problem, id.equations, id.options);
   id.below_materiality = small_effects(id.equations, id.explanations);
   erase_immaterial(id.explanations);

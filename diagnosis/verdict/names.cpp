@@ -6,10 +6,10 @@
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/evidence/groups.hpp"
-#include "diagnosis/evidence/inexact_forms.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/normal_quantiles.hpp"
 // Design: docs/decisions/0505-unknown-terms.md,
 // docs/decisions/0507-cross-fitting.md
 // Method: [BarbieriBerger2004]
@@ -126,18 +126,43 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
   std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }
 
+/// How far a form of the best set is from the textbook's, in sigmas of what its prior lets the data find.
+double form_sigmas(const Posterior& posterior, Eigen::Index at) {
+  const double found = kFormSpread * kFormSpread - posterior.covariance(at, at);
+  return found > 0 ? std::abs(posterior.mean[at]) / std::sqrt(found) : 0.0;
+}
+
+/// Whether the law's strength varies with the variable by more than laws do, or surely by more than a fifth.
+bool is_inexact_form(const Posterior& posterior, Eigen::Index at) {
+  return form_sigmas(posterior, at) >= kInexactForm ||
+         std::abs(posterior.mean[at]) - kNormal95 * std::sqrt(posterior.covariance(at, at)) >= kSureForm;
+}
+
+/// Whether the form's variable differs within these runs: a payload that all of them carry is the law's size.
+bool form_is_told(const Examination& x, int form) {
+  const Column& column = x.id.equations.columns[static_cast<std::size_t>(form)];
+  const auto part = static_cast<std::size_t>(column.part) / kFormVariables.size();
+  const int law = x.id.equations.columns_of_candidate(column.owner, false)[part];
+  const auto& gram = x.id.problem.gram;
+  return std::abs(gram(law, form)) < kSameSignature * std::sqrt(gram(law, law) * gram(form, form));
+}
+
 /// A named law whose strength varies with a variable by more than inexact forms do is not the whole cause.
 /// At the battery alone forms take up the power's curvature and say nothing.
 void name_inexact_forms(const Examination& x, Names& names) {
   if (std::ranges::none_of(x.id.signals, measures_motors)) return;
   const Equations& equations = x.id.equations;
-  for (int form : inexact_forms(x.id.problem, equations, x.best().columns, x.id.dispersion)) {
-    const Column& column = equations.columns[static_cast<std::size_t>(form)];
+  const std::vector<int>& columns = x.best().columns;
+  const Posterior posterior = solve(x.id.problem, columns, x.id.dispersion);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& column = equations.columns[static_cast<std::size_t>(columns[k])];
+    if (column.kind != Column::Kind::form) continue;
     const std::string law = equations.candidates[static_cast<std::size_t>(column.owner)].label();
     const bool named = std::ranges::any_of(
         names.named, [&](const ActiveEffect& effect) { return effect.candidate.label() == law; });
-    if (!named) continue;
-    const double share = share_lost(x, fit_within_calibration(x.id), {form});
+    if (!named || !form_is_told(x, columns[k])) continue;
+    if (!is_inexact_form(posterior, static_cast<Eigen::Index>(k))) continue;
+    const double share = share_lost(x, fit_within_calibration(x.id), {columns[k]});
     if (share < kLeastShownShare) continue;
     const auto variable = static_cast<std::size_t>(column.part) % kFormVariables.size();
     names.unknowns.push_back({.depends_on = std::string(kFormVariables[variable]) + " (" + law + ")",

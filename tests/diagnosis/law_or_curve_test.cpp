@@ -1,12 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
-#include "diagnosis/evidence/attribution.hpp"
-#include "diagnosis/evidence/inexact_forms.hpp"
-#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 
@@ -40,49 +35,6 @@ INSTANTIATE_TEST_SUITE_P(Days, StrongLaw,
                                            StrongDay{"viscous_friction", 0.506,
                                                      "--robot tug --level 1 --seed 7915681761724098365"}),
                          [](const auto& day) { return day.param.effect; });
-
-/// Coulomb friction whose strength varies with the speed is not the whole cause: Stribeck's friction is
-/// there.
-TEST(InexactLaw, CostsAsMuchAsAnotherCause) {
-  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
-  const Diagnosis d = diagnose(testing::blind_day("--effect coulomb_friction,stribeck_friction --robot nomad "
-                                                  "--protocol 12 --level 1 --seed 3664679619050966153"),
-                               {.bootstrap = 0});
-  ASSERT_FALSE(d.causes.empty()) << verdict_name(d.verdict);
-  EXPECT_EQ(d.causes.front().effect.name, "coulomb_friction");
-  EXPECT_TRUE(d.unknowns.empty()) << d.leftover_description;
-  const bool listed = std::ranges::count(d.below_materiality, "stribeck_friction", &SmallEffect::effect) > 0,
-             named = d.causes.size() == 2 && d.causes[1].effect.name == "stribeck_friction";
-  EXPECT_TRUE(listed || named);
-}
-
-/// One law of amplitude 1 with a form by speed, both seen independently with this variance.
-struct LawWithForm {
-  LinearProblem problem{};
-  Equations equations{};
-
-  LawWithForm(double form, double variance) {
-    equations.candidates = {Candidate{.shape = {.name = "viscous_friction"}}};
-    equations.columns = {{Column::Kind::amplitude, 0, 0, 1e3, 0.0},
-                         {Column::Kind::form, 0, 0, kFormSpread, 0.0}};
-    const Eigen::Vector2d truth(1, form);
-    problem.gram = Eigen::Matrix2d::Identity() / variance;
-    problem.right = problem.gram * truth;
-    problem.residual_square = truth.dot(problem.gram * truth);
-    problem.prior_sd = Eigen::Vector2d(1e3, kFormSpread);
-  }
-};
-
-TEST(InexactLaw, IsOneWhoseStrengthSurelyVariesByMoreThanLawsDo) {
-  const auto inexact = [](double form, double variance) {
-    const LawWithForm law(form, variance);
-    return inexact_forms(law.problem, law.equations, {0, 1}, 1.0);
-  };
-  EXPECT_EQ(inexact(0.5, 1e-6), std::vector<int>{1});
-  EXPECT_EQ(inexact(-0.5, 1e-6), std::vector<int>{1});
-  EXPECT_TRUE(inexact(0.1, 1e-6).empty());
-  EXPECT_TRUE(inexact(0.5, 1.0).empty());  // not told by the data
-}
 
 }  // namespace
 }  // namespace joulepath
