@@ -19,6 +19,8 @@ constexpr double kLeastHeading_m = 0.2;  ///< the shortest line that knows headi
 constexpr int kMostLines = 4;            ///< that are tried for a leg
 constexpr double kLengthRatio = 1.12;    ///< of the lines that know headings, below the long one
 constexpr double kHeadingGain_J = 0.01;  ///< that counts
+constexpr double kTightBound = 0.9;      ///< of the energy, below which lower prices are tried
+constexpr double kLowerPrice = 0.25, kLeastPrice_W = 1;  ///< of a second, tried after a price
 
 LegEnds ends_of(const LegPlan& leg, const std::optional<double>& start_rad,
                 const std::optional<double>& goal_rad, double cost_J) {
@@ -174,15 +176,19 @@ LegBound LegBounds::find(const LegEnds& leg, double time_W) {
 
 namespace {
 
-/// The bound at a price of a second. Under a jerk limit the price is that of the problem with it, and the
-/// bound, without it, may be greater at a lower price: any price gives a valid bound.
+/// The bound at a price of a second: any price gives a valid one. Under a jerk limit the price is that of the
+/// problem with it, and of a plan that hardly meets its deadline any price is: lower ones may give more.
 template <class At>
-PathBound greatest_bound(const Plan& plan, double price_W, const At& bound_at) {
+PathBound greatest_bound(const Plan& plan, double price_W, double energy_J, const At& bound_at) {
   PathBound best = bound_at(price_W);
-  if (!best.energy_J || !(price_W > 0) || !limits_jerk(plan)) return best;
-  for (const double share : {0.25, 0.0})
-    if (const PathBound found = bound_at(share * price_W); found.energy_J && *found.energy_J > *best.energy_J)
-      best = found;
+  if (!best.energy_J) return best;
+  if (!limits_jerk(plan) && *best.energy_J >= kTightBound * energy_J) return best;
+  while (price_W > 0) {
+    price_W = price_W > kLeastPrice_W ? kLowerPrice * price_W : 0;
+    const PathBound found = bound_at(price_W);
+    if (!found.energy_J || *found.energy_J <= *best.energy_J) break;
+    best = found;
+  }
   return best;
 }
 
@@ -238,7 +244,7 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
     const double price_W = std::max(0.0, leg.price_of_time_W);
-    leg.path_bound = greatest_bound(plan, price_W, [&](double trial_W) {
+    leg.path_bound = greatest_bound(plan, price_W, leg.energy.total_J(), [&](double trial_W) {
       return path_bound(bounds.find(k, trial_W), trial_W, leg.duration_s, standby_W * leg.dwell_s);
     });
     raise_to(*leg.path_bound, leg.energy.total_J(), leg.lower_bound_J, leg.gap_percent);
@@ -247,8 +253,9 @@ void add_path_bounds(Plan& plan, const MissionRequest& mission, const MissionWor
     lowest_W = std::min(lowest_W, price_W), highest_W = std::max(highest_W, price_W);
   }
   const double price_W = driving_s > 0 ? std::clamp(spent_J / driving_s, lowest_W, highest_W) : 0;
-  plan.path_bound = greatest_bound(
-      plan, price_W, [&](double trial_W) { return mission_bound(bounds, plan, trial_W, standby_W); });
+  plan.path_bound = greatest_bound(plan, price_W, plan.energy.total_J(), [&](double trial_W) {
+    return mission_bound(bounds, plan, trial_W, standby_W);
+  });
   raise_to(*plan.path_bound, plan.energy.total_J(), plan.lower_bound_J, plan.gap_percent);
 }
 

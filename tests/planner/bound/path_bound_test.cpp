@@ -77,6 +77,25 @@ TEST(PathBounds, ContainThePriceOfADeadline) {
   EXPECT_GT(*hurried.path_bound->energy_J, *free.path_bound->energy_J);
 }
 
+/// A plan that hardly meets its deadline has any price of a second. No deadline lowers the bound of a later
+/// one.
+TEST(PathBounds, TheTightestDeadlineNeverLowersThem) {
+  MissionRequest mission = two_legs();
+  mission.objective = {.minimize = Objective::Minimize::time};
+  const double least_s = planned(mission).duration_s;
+  mission.objective = {.minimize = Objective::Minimize::energy};
+  double later_J = 0;
+  for (const double share : {1.02, 1.0001}) {
+    mission.objective.deadline_s = share * least_s;
+    const Plan plan = planned(mission);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    ASSERT_TRUE(plan.path_bound && plan.path_bound->energy_J);
+    EXPECT_GE(*plan.path_bound->energy_J, 0.98 * later_J) << share;
+    EXPECT_LE(*plan.path_bound->energy_J, plan.energy.total_J()) << share;
+    later_J = *plan.path_bound->energy_J;
+  }
+}
+
 /// Under a jerk limit the price of a second, which is far above that without it, is no good multiplier. What
 /// holds for all paths holds for the given ones.
 TEST(PathBounds, LessTimeNeverLowersThem) {
