@@ -47,6 +47,16 @@ class WayMaker {
     return scored(std::move(way));
   }
 
+  /// Without a check and a score.
+  Way blocked(const PooledRoute& route, std::size_t index) const {
+    Way way{.name = "route_" + std::to_string(index) + "_blocked",
+            .route = index,
+            .stops_at_corners = true,
+            .shape = blend_corners(route.polyline_m, careful_, {.kind = CornerPolicy::Kind::stop_turn_go})};
+    take_path(way);
+    return way;
+  }
+
   std::optional<Way> bent(const Way& natural, const std::optional<Lead>& start,
                           const std::optional<Lead>& goal) const {
     auto shape = blend_with_leads(natural.shape.polyline_m, start, goal, careful_, {});
@@ -60,10 +70,14 @@ class WayMaker {
   }
 
  private:
-  std::optional<Way> scored(Way way) const {
+  static void take_path(Way& way) {
     way.path = way.shape.path;
     way.leaves_rad = way.path.start().heading_rad;
     way.arrives_rad = way.path.end().heading_rad;
+  }
+
+  std::optional<Way> scored(Way way) const {
+    take_path(way);
     way.score = score_path(way.path, leg_, leg_index_, context_);
     if (!way.score.drivable) return std::nullopt;
     return way;
@@ -156,6 +170,12 @@ std::vector<Way> natural_ways(const LegRoutes& routes, const LegRequest& leg, st
   }
   sort_by_cost(ways, maker);
   return ways;
+}
+
+Way blocked_way(const LegRoutes& routes, const LegRequest& leg, std::size_t leg_index,
+                const ChoiceContext& context) {
+  const std::size_t route = shortest_route(routes);
+  return WayMaker(leg, leg_index, context).blocked(routes.routes[route], route);
 }
 
 std::vector<Way> bent_ways(const std::vector<Way>& natural, const std::vector<double>& start_rad,

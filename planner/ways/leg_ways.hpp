@@ -48,6 +48,11 @@ struct Variety {
                                             std::size_t leg_index, const ChoiceContext& context,
                                             const Variety& variety);
 
+/// The shortest route with a stop at every corner, whatever the outline meets there when it drives forward.
+/// Not drivable: a place to begin for what drives backward. There must be a route.
+[[nodiscard]] Way blocked_way(const LegRoutes& routes, const LegRequest& leg, std::size_t leg_index,
+                              const ChoiceContext& context);
+
 /// Ways that leave the start in one of the given headings, reach the goal in one, or both, along the routes
 /// of the best natural ways.
 [[nodiscard]] std::vector<Way> bent_ways(const std::vector<Way>& natural,

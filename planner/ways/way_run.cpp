@@ -86,7 +86,7 @@ class RunChoice {
   }
 
   std::vector<ChainChoice> choose_chain();
-  std::vector<ChainChoice> ways_without_turns() const;
+  std::vector<ChainChoice> ways_as_if_free();
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -182,9 +182,13 @@ std::vector<ChainChoice> RunChoice::choose_chain() {
   return chain;
 }
 
-/// Ways as if every turn could be driven, for a run without a drivable choice: the joint program may find
-/// one.
-std::vector<ChainChoice> RunChoice::ways_without_turns() const {
+/// Ways as if every turn could be driven, and routes where no way is free, for a run without a drivable
+/// choice: the joint program may find one.
+std::vector<ChainChoice> RunChoice::ways_as_if_free() {
+  for (std::size_t k = 0; k < size(); ++k)
+    if (ways_[k].empty() && !run_.routes[k].routes.empty())
+      ways_[k].push_back(blocked_way(run_.routes[k], leg(k), run_.first + k, context(k)));
+  link();
   ChainRequest free = request_;
   free.turns_count = false;
   std::vector<ChainChoice> chain = cheapest_chain(free, [](std::size_t, const Way&) { return true; });
@@ -195,7 +199,7 @@ std::vector<ChainChoice> RunChoice::ways_without_turns() const {
 
 std::vector<LegPath> RunChoice::choose() {
   std::vector<ChainChoice> chain = choose_chain();
-  if (chain.empty()) chain = ways_without_turns();
+  if (chain.empty()) chain = ways_as_if_free();
   if (chain.empty()) return {};
   RefinedRun refined(request_, chain, run_);
   if (refined.barred() || (!run_.quick && steps_.refinement)) refined.join();

@@ -1,6 +1,7 @@
 #include "planner/path/search/route.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -154,8 +155,13 @@ RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, c
 }
 
 const FreeSpace& RouteSpace::floor_between(const Point2& a_m, const Point2& b_m) const {
-  if (any_heading_.connected(a_m, b_m)) return any_heading_;
-  return some_heading().connected(a_m, b_m) ? some_heading() : narrow();
+  const auto serves = [&](const FreeSpace& floor) {
+    return floor.connected(a_m, b_m) && std::ranges::all_of(std::array{a_m, b_m}, [&](const Point2& end) {
+             return field_->distance_m(end[0], end[1]) >= floor.radius_m() - FootprintChecker::kTolerance_m;
+           });
+  };
+  if (serves(any_heading_)) return any_heading_;
+  return serves(some_heading()) ? some_heading() : narrow();
 }
 
 const FreeSpace& RouteSpace::narrow() const {

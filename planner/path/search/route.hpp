@@ -36,8 +36,8 @@ class RouteSpace {
   /// As some_heading() on cells of 1.25 cm, where the floor is not too large: they miss no corridor that is
   /// so much wider than the disc. Built at the first call.
   const FreeSpace& narrow() const;
-  /// The floor on which to search a way between two places: the first that connects them of any_heading(),
-  /// some_heading() and narrow(); the last one where none does.
+  /// The floor on which to search a way between two places: the first of any_heading(), some_heading() and
+  /// narrow() that connects them and whose disc fits at both; the last one where none does.
   const FreeSpace& floor_between(const Point2& a_m, const Point2& b_m) const;
   /// A point inside of every island (homotopy.hpp) of any_heading().
   const std::vector<Point2>& islands_m() const { return islands_m_; }

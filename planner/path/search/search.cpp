@@ -88,7 +88,9 @@ Setup set_up(const FreeSpace& free_space, const SearchRequest& request) {
 SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request) {
   SearchResult result;
   const Point2 &a = request.start_m, &b = request.goal_m;
-  if (!request.cost.rate && DiscLineCheck(space, a, b, request.cells)(a, b)) {
+  const DiscLineCheck free(space, a, b, request.cells);
+  if (!free.point_free(a) || !free.point_free(b)) return result;  // OMPL waits for another end without end
+  if (!request.cost.rate && free(a, b)) {
     result.polyline_m = {a, b};
     result.cost = polyline_cost(result.polyline_m, request.cost);
     return result;
