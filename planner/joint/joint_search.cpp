@@ -19,9 +19,9 @@ constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are
 constexpr double kGiveUp = 1.02, kHopeless = 1.025, kNearBest = 1.005, kSame = 3e-4;
 constexpr std::size_t kRefined = 2;
 constexpr double kFineTolerance = 3e-4;
-constexpr double kWarmGap = 0.05, kMarginGap = 0.01;  ///< NewtonOptions::gap from a solution
-constexpr int kMostSteps = 50;                        ///< of a start
-constexpr double kPause = 0.03;                       ///< NewtonOptions::pause of all starts
+constexpr double kWarmGap = 0.05, kMarginGap = 0.01;   ///< NewtonOptions::gap from a solution
+constexpr int kMostSteps = 50, kMostStepsAgain = 100;  ///< of a start; where none converged
+constexpr double kPause = 0.03;                        ///< NewtonOptions::pause of all starts
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
 
@@ -138,46 +138,76 @@ CurveSegment segment_of(const Program& program, const Piece& piece, const Pose& 
   return DirectionSegment(along, {phi(piece.from), phi(piece.to), length_m, program.half_track_m()});
 }
 
-/// All starts on the coarse grid, in the order of their cost. Each goes a part of its way; then the one that
-/// promises most goes on first, and the others only as long as they may become the best.
-std::vector<Candidate> explored(const JointQuery& query, const std::vector<std::vector<Sketch>>& starts) {
+/// All starts on the coarse grid. Each goes a part of its way; then the one that promises most goes on first,
+/// and the others only as long as they may become the best.
+class Exploration {
+ public:
+  Exploration(const JointQuery& query, const std::vector<std::vector<Sketch>>& starts) {
+    const double half_track_m = query.laws.front().half_track_m;
+    for (const std::vector<Sketch>& sketches : starts) {
+      Start start = assemble(sketches, query.goals, query.start, half_track_m, kCoarse);
+      start.program.laws = query.laws;
+      start.program.laws.insert(start.program.laws.end(), query.reverse_laws.begin(),
+                                query.reverse_laws.end());
+      start.program.checker = query.checker;
+      JointNewton newton(start);
+      JointSolution rough = newton.run({.most_steps = kMostSteps, .pause = kPause});
+      runs_.push_back({std::move(start), std::move(newton), std::move(rough)});
+    }
+    for (Run& run : runs_) order_.push_back(&run);
+    std::stable_sort(order_.begin(), order_.end(), [](const Run* a, const Run* b) {
+      return std::isfinite(a->solution.cost_J) &&
+             !(b->solution.cost_J <= a->solution.cost_J);  // one that is no number stands last
+    });
+  }
+
+  /// The solutions that may be the best after so many steps in all, in the order of their cost.
+  std::vector<Candidate> found(int most_steps) {
+    std::vector<Candidate> found;
+    double best_J = kNoLimit, least_J = kNoLimit;
+    for (Run* run : order_) {
+      if (run->solution.cost_J > kHopeless * least_J) break;
+      run->solution = run->newton.run({.most_steps = most_steps, .give_up_J = kGiveUp * best_J});
+      const JointSolution& solution = run->solution;
+      if (!solution.feasible) continue;
+      if (solution.converged) best_J = std::min(best_J, solution.cost_J);
+      least_J = std::min(least_J, solution.cost_J);
+      found.push_back({run->start, solution});
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+      return a.solution.cost_J < b.solution.cost_J;
+    });
+    return found;
+  }
+
+ private:
   struct Run {
     Start start{};
     JointNewton newton;
     JointSolution solution{};
   };
-  const double half_track_m = query.laws.front().half_track_m;
-  std::vector<Run> runs;
-  for (const std::vector<Sketch>& sketches : starts) {
-    Start start = assemble(sketches, query.goals, query.start, half_track_m, kCoarse);
-    start.program.laws = query.laws;
-    start.program.laws.insert(start.program.laws.end(), query.reverse_laws.begin(), query.reverse_laws.end());
-    start.program.checker = query.checker;
-    JointNewton newton(start);
-    JointSolution rough = newton.run({.most_steps = kMostSteps, .pause = kPause});
-    runs.push_back({std::move(start), std::move(newton), std::move(rough)});
+  std::vector<Run> runs_{};
+  std::vector<Run*> order_{};
+};
+
+void sort_by_cost(std::vector<JointPaths>& paths) {
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
+}
+
+/// The best candidates on the fine grid that reach their goals and are free.
+std::vector<JointPaths> finished(const std::vector<Candidate>& found) {
+  std::vector<JointPaths> best;
+  double last_J = 0;
+  for (const Candidate& candidate : found) {
+    const double cost_J = candidate.solution.cost_J;
+    if (best.size() == kRefined || (!best.empty() && cost_J > kNearBest * best.front().cost_J)) break;
+    if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
+    last_J = cost_J;
+    if (auto paths = finished(refined(candidate))) best.push_back(std::move(*paths));
   }
-  std::vector<Run*> order;
-  for (Run& run : runs) order.push_back(&run);
-  std::stable_sort(order.begin(), order.end(), [](const Run* a, const Run* b) {
-    return std::isfinite(a->solution.cost_J) &&
-           !(b->solution.cost_J <= a->solution.cost_J);  // one that is no number stands last
-  });
-  std::vector<Candidate> found;
-  double best_J = kNoLimit, least_J = kNoLimit;
-  for (Run* run : order) {
-    if (run->solution.cost_J > kHopeless * least_J) break;
-    run->solution = run->newton.run({.most_steps = kMostSteps, .give_up_J = kGiveUp * best_J});
-    const JointSolution& solution = run->solution;
-    if (!solution.feasible) continue;
-    if (solution.converged) best_J = std::min(best_J, solution.cost_J);
-    least_J = std::min(least_J, solution.cost_J);
-    found.push_back({std::move(run->start), std::move(run->solution)});
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.solution.cost_J < b.solution.cost_J;
-  });
-  return found;
+  sort_by_cost(best);
+  return best;
 }
 
 }  // namespace
@@ -210,24 +240,19 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
 
 std::vector<JointPaths> best_joint_paths(const JointQuery& query,
                                          const std::vector<std::vector<Sketch>>& starts) {
-  const std::vector<Candidate> found = explored(query, starts);
-  std::vector<JointPaths> best;
-  double last_J = 0;
-  for (const Candidate& candidate : found) {
-    const double cost_J = candidate.solution.cost_J;
-    if (best.size() == kRefined || (!best.empty() && cost_J > kNearBest * best.front().cost_J)) break;
-    if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
-    last_J = cost_J;
-    if (auto paths = finished(refined(candidate))) best.push_back(std::move(*paths));
-  }
-  std::stable_sort(best.begin(), best.end(),
-                   [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
+  Exploration exploration(query, starts);
+  const std::vector<Candidate> found = exploration.found(kMostSteps);
+  std::vector<JointPaths> best = finished(found);
+  if (std::any_of(found.begin(), found.end(), [](const Candidate& c) { return c.solution.converged; }))
+    return best;
+  for (JointPaths& paths : finished(exploration.found(kMostStepsAgain))) best.push_back(std::move(paths));
+  sort_by_cost(best);
   return best;
 }
 
 std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
                                             const std::vector<std::vector<Sketch>>& starts) {
-  const std::vector<Candidate> found = explored(query, starts);
+  const std::vector<Candidate> found = Exploration(query, starts).found(kMostSteps);
   if (found.empty()) return std::nullopt;
   const auto& [start, solution] = found.front();
   return JointPaths{paths_of(start.program, solution.parameters), solution.cost_J,

@@ -390,6 +390,10 @@ void RefinedRun::join() {
     std::size_t end = first;
     while (end < legs && end < first + kMostTogether && may_join(end)) ++end;
     if (end > first) join(first, end - first);
+    const auto is_refined = [](const Part& part) { return part.refined; };
+    const auto at = [&](std::size_t k) { return parts_.begin() + static_cast<std::ptrdiff_t>(k); };
+    if (end > first + 1 && std::none_of(at(first), at(end), is_refined))  // each alone, as the others are now
+      for (std::size_t k = first; k < end; ++k) join(k, 1);
     first = joins_again(first, end - first) ? end - 1 : std::max(end, first + 1);
   }
 }
