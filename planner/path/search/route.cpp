@@ -1,7 +1,6 @@
 #include "planner/path/search/route.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -155,10 +154,11 @@ RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, c
 }
 
 const FreeSpace& RouteSpace::floor_between(const Point2& a_m, const Point2& b_m) const {
+  const auto stands = [&](const FreeSpace& floor, const Point2& end_m) {
+    return field_->distance_m(end_m[0], end_m[1]) >= floor.radius_m() - FootprintChecker::kTolerance_m;
+  };
   const auto serves = [&](const FreeSpace& floor) {
-    return floor.connected(a_m, b_m) && std::ranges::all_of(std::array{a_m, b_m}, [&](const Point2& end) {
-             return field_->distance_m(end[0], end[1]) >= floor.radius_m() - FootprintChecker::kTolerance_m;
-           });
+    return floor.connected(a_m, b_m) && stands(floor, a_m) && stands(floor, b_m);
   };
   if (serves(any_heading_)) return any_heading_;
   return serves(some_heading()) ? some_heading() : narrow();
