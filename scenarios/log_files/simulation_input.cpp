@@ -9,6 +9,7 @@
 #include "planner/mission/mission.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
@@ -89,7 +90,7 @@ SimulationInput from_motions(const MissionRequest& mission, const MissionWorld& 
 SimulationInput from_mission(const std::string& path, const std::string& robot_file,
                              const ReadOptions& options, const PlanOptions& planning) {
   MissionRequest mission = read_mission(path, options);
-  if (!robot_file.empty()) mission.robot_file = robot_file;
+  replace_file(mission, "robot", &MissionRequest::robot_file, robot_file);
   const MissionWorld world = read_world(mission, options);
   const bool prescribed =
       !mission.legs.empty() &&

@@ -137,6 +137,17 @@ TEST(CommandLine, AnEmptyTextIsNoValue) {
   }
 }
 
+TEST(CommandLine, AFileOfAnOptionIsAMistakeOfTheOption) {
+  const ScratchDirectory scratch;
+  for (const std::string option : {"--robot", "--map"}) {
+    const std::string said = "joulepath: " + option + ": found nosuch.yaml, no readable file";
+    const auto result = run_program(scratch, "plan " + kBroken + "good/mission.yaml " + option +
+                                                 " nosuch.yaml --out " + scratch.at("out"));
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err.rfind(said, 0), 0u) << result.err;
+  }
+}
+
 TEST(CommandLine, AnOptionBeforeTheCommandIsReportedAsSuch) {
   const ScratchDirectory scratch;
   const auto result = run_program(scratch, "--out x plan m.yaml");
