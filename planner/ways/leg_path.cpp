@@ -1,7 +1,6 @@
 #include "planner/ways/leg_path.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "planner/legs/floor_check.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
@@ -66,12 +65,6 @@ LegPath along_given(const LegRequest& leg, const Pose& start, const RouteSpace* 
   return way;
 }
 
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f m", value);
-  return text;
-}
-
 std::string place_of(const SourceMark& mark, const std::string& key) {
   if (mark.file.empty()) return "";
   return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " + key;
@@ -96,22 +89,22 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
   if (verdict.nearest_reachable_m) {
     const auto [x_m, y_m] = *verdict.nearest_reachable_m;
     reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};
-    if (reason.amount == 0.0) reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
+    reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
   }
   return reason;
 }
 
+constexpr const char* kFreePlace = "a free place, the whole footprint and clearance_m around it";
+
 [[noreturn]] void refuse_start(const MissionRequest& mission, const RouteVerdict& verdict) {
-  const std::string free = "a free place, the whole footprint and clearance_m around it",
-                    hint = "short by " + metres(verdict.short_by_m);
   if (mission.start.station.empty() && !mission.marks.keys.contains("start"))
     throw ConfigError({.mark = mission.marks.at(mission.visit.empty() ? "legs" : "visit"),
                        .key = "start",
                        .found = "nothing, and at the map's origin of coordinates " + verdict.message,
-                       .accepted = "station, or x_m and y_m, of " + free,
-                       .hint = hint});
+                       .accepted = std::string("station, or x_m and y_m, of ") + kFreePlace,
+                       .hint = ""});
   refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
-         "a start where the robot does not fit: " + verdict.message, free, hint);
+         "a start where the robot does not fit: " + verdict.message, kFreePlace);
 }
 
 LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
