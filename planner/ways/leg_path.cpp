@@ -135,6 +135,19 @@ void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space
   if (verdict && verdict->status == RouteStatus::start_blocked) refuse_start(mission, *verdict);
 }
 
+void refuse_blocked_goals(const MissionRequest& mission, const RouteSpace& space) {
+  const auto check = [&](const std::string& name) {
+    if (name.empty()) return;  // of a given path or motion
+    const auto verdict = blocked_ends(space, route_request({.to = name}, {mission.start.pose}, mission, {}));
+    if (!verdict || verdict->status != RouteStatus::goal_blocked) return;
+    const ItemMarks& marks = mission.stations.at(name).marks;
+    throw ConfigError(
+        {marks.item, marks.path, "a goal where the robot does not fit: " + verdict->message, kFreePlace, ""});
+  };
+  for (const LegRequest& leg : mission.legs) check(leg.to);
+  for (const VisitRequest& visit : mission.visit) check(visit.station);
+}
+
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                  const MissionRequest& mission, const RouteSpace* space, const PlanOptions& options) {
   if (leg.path) return along_given(leg, start.pose, space);

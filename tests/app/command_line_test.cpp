@@ -611,7 +611,7 @@ TEST(CommandLine, NoLineOnATerminalIsWiderThanOneHundredAndTenColumns) {
   EXPECT_EQ(shown_on_terminal(command), run_program(scratch, command).out);
 }
 
-/// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.
+/// Check tries a mission: a deadline that no drive meets is a note, a stop in a wall an error of the file.
 TEST(CommandLine, CheckTriesAMissionCoarsely) {
   const ScratchDirectory scratch;
   write_drive(scratch, 1);
@@ -634,10 +634,11 @@ TEST(CommandLine, CheckTriesAMissionCoarsely) {
   scratch.write("m.yaml",
                 "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: map.yaml\nstations:\n"
                 "  shelf: {x_m: 3.5, y_m: 1}\nstart: {x_m: 1, y_m: 1}\nlegs:\n  - {to: shelf}\n");
-  const std::string walled = notes("");
-  EXPECT_NE(walled.find("tried coarsely: path on leg 1 (shelf): the robot does not fit at the goal"),
+  const auto walled = run_program(scratch, "check " + scratch.at("m.yaml"));
+  EXPECT_EQ(walled.code, 2);
+  EXPECT_NE(walled.err.find("m.yaml:5:10: stations.shelf: found a goal where the robot does not fit"),
             std::string::npos)
-      << walled;
+      << walled.err;
 }
 
 /// A folder with a plan is safe from the next one; a folder with a verdict is free for it.
