@@ -405,6 +405,20 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
   EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
 }
 
+TEST(CommandLine, APlanSaysWhyAClassicProfileIsInfeasible) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");
+  std::string robot = text_of(kRobot);
+  const std::string current = "max_current_A: 8.0";
+  robot.replace(robot.find(current), current.size(), "max_current_A: 0.55");
+  const auto result = run_program(scratch, "plan " + path + " --robot " + scratch.write("robot.yaml", robot) +
+                                               " --confidence 0.9 --out " + scratch.at("out"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("trapezoid_max_acceleration: cannot meet the time"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("> 0.999"), std::string::npos) << "a blank where a line can be folded";
+}
+
 /// The second curve leaves margins, of the battery too: its fastest drive is later.
 TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
   const ScratchDirectory scratch;
