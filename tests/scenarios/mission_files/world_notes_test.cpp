@@ -47,8 +47,9 @@ TEST(WorldNotes, CellsAsWideAsTheRobotAreNoted) {
   const auto notes_at = [](double resolution_m) {
     return added_notes([&](MissionRequest&, MissionWorld& world) { world.map->resolution_m = resolution_m; });
   };
-  EXPECT_TRUE(tells(notes_at(0.5), "resolution: a cell of 0.5 m is as wide as the robot"));
+  EXPECT_TRUE(tells(notes_at(0.5), "resolution: a cell of 0.5 m is not smaller than the robot"));
   EXPECT_TRUE(notes_at(0.1).empty());
+  EXPECT_TRUE(notes_at(5).empty()) << "the map file's own note tells it";
 }
 
 TEST(WorldNotes, ARouteGraphOutsideOfTheMapIsNoted) {
