@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "scenarios/any_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/path_file.hpp"
@@ -71,6 +73,13 @@ TEST(WorldNotes, ARobotsImplausibleConstantIsToldOfItsFile) {
   world.robot.power.standby_W *= 1000;
   EXPECT_EQ(notes.size(), 1u);
   EXPECT_EQ(world_notes(mission, world).front().rfind(mission.robot_file + ": power.standby_W", 0), 0u);
+}
+
+TEST(WorldNotes, TheShippedMissionsHaveNone) {
+  for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/missions")) {
+    const MissionRequest mission = read_mission(entry.path().string());
+    EXPECT_EQ(world_notes(mission, read_world(mission)), std::vector<std::string>{}) << entry.path();
+  }
 }
 
 TEST(WorldNotes, PointsOfAPathThatAreFarApartAreNoted) {
