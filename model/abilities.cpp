@@ -38,6 +38,9 @@ double top_speed_m_s(const Plant& plant) {
   return low;
 }
 
+/// Rise over run where the weight's part along the slope is this share of it.
+double grade_of(double sine) { return sine < 1 ? std::tan(std::asin(sine)) : kNoLimit; }
+
 }  // namespace
 
 Abilities abilities_of(const Robot& robot) {
@@ -53,7 +56,7 @@ Abilities abilities_of(const Robot& robot) {
     pull_N += (able.motor_torque_Nm[side] - able.friction_torque_Nm[side]) /
               plant.robot.geometry.wheel_radius_m[side];
   }
-  able.grade = pull_N / (plant.robot.total_mass_kg(0.0) * kGravity_m_s2);
+  able.grade = grade_of(pull_N / (plant.robot.total_mass_kg(0.0) * kGravity_m_s2));
   const double limit_m_s = robot.limits ? robot.limits->speed_m_s : kNoLimit;
   able.cruise_m_s = std::min({1.0, limit_m_s, able.top_speed_m_s});
   if (!(able.cruise_m_s > 0)) return able;

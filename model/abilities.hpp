@@ -12,7 +12,7 @@ struct Abilities {
   double top_speed_m_s{};              ///< on a level floor; infinite where nothing bounds it; 0: cannot move
   double cruise_m_s{};                 ///< 1 m/s, or less where limits or motors allow less
   double energy_J_m{};                 ///< at that speed, standby included
-  double grade{};                      ///< rise over run on which it can start; infinite: no current limit
+  double grade{};                      ///< rise over run on which it can start; infinite: the torque lifts it
   double distance_m{};                 ///< at that speed until the battery's reserve; infinite: no capacity
 
   [[nodiscard]] bool can_move() const { return top_speed_m_s > 0; }

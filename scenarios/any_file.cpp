@@ -69,6 +69,7 @@ std::string abilities_text(const Robot& robot) {
   };
   add("top speed ", able.top_speed_m_s, " m/s by voltage and current");
   add("", able.energy_J_m, " J/m at " + four_digits(able.cruise_m_s) + " m/s");
+  if (able.grade == kNoLimit) append_item(text, "torque for any slope");
   add("torque for a slope of ", 100 * able.grade, " %");
   append_item(text, mass);
   add("", able.distance_m / 1000, " km per charge");

@@ -12,6 +12,7 @@
 #include "model/progress.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/values/verdict_text.hpp"
+#include "planner/ways/leg_path.hpp"
 #include "scenarios/any_file.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
@@ -45,19 +46,23 @@ bool is_sound(const FileSummary& summary) {
   return summary.data_checks.empty() && summary.errors.empty() && summary.question.empty();
 }
 
-/// What a coarse plan of a mission runs into: a start or a stop without room, a place that no way leads to, a
-/// deadline that is too early. Its paths are not refined, so a plan may arrive a little earlier.
+/// What a coarse plan of a mission runs into: a place that no way leads to, a deadline that is too early. Its
+/// paths are not refined, so a plan may arrive a little earlier. Throws ConfigError where the robot does not
+/// fit at the start or at a stop.
 std::string coarse_verdict(const std::string& file, const ReadOptions& reading) {
   MissionRequest mission = read_mission(file, reading);
   mission.objective.confidence.reset();
   const MissionWorld world = read_world(mission, reading);
   if (!world.robot.limits) return "";
+  const std::optional<RouteSpace> space = route_space(mission, world);
+  if (space) refuse_blocked_goals(mission, *space);
   const Plan plan = plan_mission(mission, world,
                                  {.solver = SolverChoice::fast,
                                   .nodes = 40,
                                   .steps = {.refinement = false},
                                   .baselines = false,
-                                  .draft = true});
+                                  .draft = true},
+                                 space ? &*space : nullptr);
   if (!plan.infeasibility) return "";
   const auto& [reason, leg, to, arc_length_m, state] = *plan.infeasibility;
   return "tried coarsely: " + reason.constraint + " on leg " + leg_text(leg, to) + ": " + plan.message;

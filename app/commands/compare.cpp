@@ -42,8 +42,7 @@ void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared)
   table.rule();
   for (const ComparedProfile& profile : compared) table.row(baseline_cells(profile.total));
   table.print(std::cout);
-  for (const auto& [total, profiles] : compared)
-    if (!total.feasible) std::cout << total.name << ": " << total.reason << "\n";
+  for (const ComparedProfile& profile : compared) print_baseline_reason(std::cout, profile.total);
 }
 
 std::string compare_examples(const PlanComparisons& comparisons) {

@@ -60,6 +60,7 @@ void print_baselines(std::ostream& stream, const Plan& plan) {
   table.row({"this plan", figure(plan.duration_s), figure(plan.energy.total_J(), 5), "", "",
              figure(plan.energy.motion_J(), 5), ""});
   table.print(stream);
+  for (const BaselineTotal& baseline : plan.baselines) print_baseline_reason(stream, baseline);
 }
 
 /// A bound in some digits, rounded away from what it bounds.
@@ -136,12 +137,12 @@ void print_winding(std::ostream& stream, const WindingAccount& winding) {
   stream << "\n";
 }
 
-/// `arrival 0.97, reserve > 0.999 (binds)`.
+/// `arrival 0.97, reserve >0.999 (binds)`: lines are folded at blanks.
 std::string promises_text(const ConfidenceAccount& account) {
   std::string text;
   for (const Promise& promise : account.promises)
     text += (text.empty() ? "" : ", ") + promise.name + " " +
-            (promise.kept > 0.999 ? "> 0.999" : figure(promise.kept, 3)) + (promise.binds ? " (binds)" : "");
+            (promise.kept > 0.999 ? ">0.999" : figure(promise.kept, 3)) + (promise.binds ? " (binds)" : "");
   return text;
 }
 
@@ -197,6 +198,10 @@ std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
           percent(saved),
           figure(baseline.motion_energy_J, 5),
           percent(saved_of_motion)};
+}
+
+void print_baseline_reason(std::ostream& out, const BaselineTotal& baseline) {
+  if (!baseline.feasible) out << baseline.name << ": " << baseline.reason << "\n";
 }
 
 void print_plan_summary(std::ostream& out, const Plan& plan, const std::string& directory) {

@@ -16,4 +16,7 @@ void print_plan_summary(std::ostream& out, const Plan& plan, const std::string& 
 [[nodiscard]] std::vector<std::string> baseline_header();
 [[nodiscard]] std::vector<std::string> baseline_cells(const BaselineTotal& baseline);
 
+/// Why a profile is infeasible, in a line under its table; nothing where it is feasible.
+void print_baseline_reason(std::ostream& out, const BaselineTotal& baseline);
+
 }  // namespace joulepath

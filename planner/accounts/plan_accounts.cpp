@@ -183,7 +183,7 @@ Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, doubl
   for (std::size_t k = 0; k < leg; ++k) dwell_s += mission.legs[k].dwell_s;
   const std::string counted = !of_mission && leg > 0 ? ", counted from the mission's start" : "";
   const std::string standing =
-      dwell_s >= amount_s ? "; " + seconds(dwell_s) + " of that time are dwell (dwell_s of the legs)" : "";
+      dwell_s > 0 ? "; " + seconds(dwell_s) + " of its time are dwell (dwell_s of the legs)" : "";
   return {.constraint = "deadline",
           .s = s_m,
           .x_m = pose.x_m,

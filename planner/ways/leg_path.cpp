@@ -1,7 +1,6 @@
 #include "planner/ways/leg_path.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "planner/legs/floor_check.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
@@ -66,12 +65,6 @@ LegPath along_given(const LegRequest& leg, const Pose& start, const RouteSpace* 
   return way;
 }
 
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f m", value);
-  return text;
-}
-
 std::string place_of(const SourceMark& mark, const std::string& key) {
   if (mark.file.empty()) return "";
   return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " + key;
@@ -96,22 +89,22 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
   if (verdict.nearest_reachable_m) {
     const auto [x_m, y_m] = *verdict.nearest_reachable_m;
     reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};
-    if (reason.amount == 0.0) reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
+    reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
   }
   return reason;
 }
 
+constexpr const char* kFreePlace = "a free place, the whole footprint and clearance_m around it";
+
 [[noreturn]] void refuse_start(const MissionRequest& mission, const RouteVerdict& verdict) {
-  const std::string free = "a free place, the whole footprint and clearance_m around it",
-                    hint = "short by " + metres(verdict.short_by_m);
   if (mission.start.station.empty() && !mission.marks.keys.contains("start"))
     throw ConfigError({.mark = mission.marks.at(mission.visit.empty() ? "legs" : "visit"),
                        .key = "start",
                        .found = "nothing, and at the map's origin of coordinates " + verdict.message,
-                       .accepted = "station, or x_m and y_m, of " + free,
-                       .hint = hint});
+                       .accepted = std::string("station, or x_m and y_m, of ") + kFreePlace,
+                       .hint = ""});
   refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
-         "a start where the robot does not fit: " + verdict.message, free, hint);
+         "a start where the robot does not fit: " + verdict.message, kFreePlace);
 }
 
 LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
@@ -140,6 +133,19 @@ RouteRequest route_request(const LegRequest& leg, const LegStart& start, const M
 void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space, const RouteRequest& way) {
   const auto verdict = blocked_ends(space, way);
   if (verdict && verdict->status == RouteStatus::start_blocked) refuse_start(mission, *verdict);
+}
+
+void refuse_blocked_goals(const MissionRequest& mission, const RouteSpace& space) {
+  const auto check = [&](const std::string& name) {
+    if (name.empty()) return;  // of a given path or motion
+    const auto verdict = blocked_ends(space, route_request({.to = name}, {mission.start.pose}, mission, {}));
+    if (!verdict || verdict->status != RouteStatus::goal_blocked) return;
+    const ItemMarks& marks = mission.stations.at(name).marks;
+    throw ConfigError(
+        {marks.item, marks.path, "a goal where the robot does not fit: " + verdict->message, kFreePlace, ""});
+  };
+  for (const LegRequest& leg : mission.legs) check(leg.to);
+  for (const VisitRequest& visit : mission.visit) check(visit.station);
 }
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,

@@ -39,4 +39,8 @@ struct LegStart {
 /// Throws ConfigError where the robot does not fit at the mission's start, from which `way` begins.
 void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space, const RouteRequest& way);
 
+/// Throws ConfigError at a station that the mission goes to and where the robot does not fit; not where it
+/// does not fit at the start, either.
+void refuse_blocked_goals(const MissionRequest& mission, const RouteSpace& space);
+
 }  // namespace joulepath

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "model/effects/catalog.hpp"
 #include "model/estimate.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/log_files/run_log.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
+#include "scenarios/robot_files/effect_list.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
@@ -89,7 +90,7 @@ SimulationInput from_motions(const MissionRequest& mission, const MissionWorld& 
 SimulationInput from_mission(const std::string& path, const std::string& robot_file,
                              const ReadOptions& options, const PlanOptions& planning) {
   MissionRequest mission = read_mission(path, options);
-  if (!robot_file.empty()) mission.robot_file = robot_file;
+  replace_file(mission, "robot", &MissionRequest::robot_file, robot_file);
   const MissionWorld world = read_world(mission, options);
   const bool prescribed =
       !mission.legs.empty() &&
@@ -153,22 +154,18 @@ NamedSettings split_settings(const std::string& text) {
 
 EffectSetting parse_effect(const std::string& text) {
   const NamedSettings named = split_settings(text);
-  EffectSetting setting{.name = named.name};
+  Value parameters, entry;
+  parameters.kind = entry.kind = Value::Kind::map;
   for (const auto& [key, value] : named.settings) {
-    if (key == "side") {
-      if (value != "left" && value != "right")
-        refuse("--effect", setting.name + ".side", value, "left or right");
-      setting.side = value == "left" ? Side::left : Side::right;
-      continue;
-    }
-    const std::optional<double> number = parse_number(value);
-    if (!number)
-      refuse("--effect", setting.name + "." + key, value.empty() ? "nothing" : "'" + value + "'", "a number",
-             "as in rolling_resistance:coefficient=0.015");
-    setting.parameters[key] = *number;
+    parameters.entries.push_back({.key = key});
+    Value& scalar = parameters.entries.back().value;
+    scalar.kind = value.empty() ? Value::Kind::null : Value::Kind::scalar;
+    scalar.text = value;
   }
-  (void)make_effect(setting);  // the catalog checks it
-  return setting;
+  entry.entries.push_back({.key = named.name, .value = std::move(parameters)});
+  const Node node(entry, "--effect", "", PathStyle::dotted);
+  check_value(node, effect_entry_schema());
+  return read_effect_entry(node);
 }
 
 }  // namespace joulepath

@@ -14,7 +14,6 @@ namespace {
 
 constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in images of map savers
 
-constexpr double kCoarsestCell_m = 1.0;
 constexpr double kMostOccupied = 0.75;  ///< of the cells that are free or occupied
 constexpr double kMostYaw_rad =
     10.0;  ///< more than a turn: it may be written so, but not in radians by chance

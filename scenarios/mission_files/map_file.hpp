@@ -8,6 +8,8 @@
 
 namespace joulepath {
 
+inline constexpr double kCoarsestCell_m = 1.0;  ///< of a map: larger cells are doubted
+
 [[nodiscard]] Schema map_schema();
 
 /// Reads a Nav2 map: YAML and its image, with the rules of Nav2's map server. Throws ConfigError.

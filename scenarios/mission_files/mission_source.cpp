@@ -41,6 +41,13 @@ void need_robot(const MissionSource& source, const std::string& input) {
                        ""});
 }
 
+void replace_file(MissionRequest& mission, const std::string& key, std::string MissionRequest::*file,
+                  const std::string& given) {
+  if (given.empty()) return;
+  mission.*file = given;
+  mission.marks.keys[key] = {.file = "--" + key};
+}
+
 MissionRequest mission_along(const MissionSource& source, Path path) {
   need_robot(source, "a path");
   MissionRequest mission{.file = source.file, .name = name_of(source.file)};
@@ -56,8 +63,8 @@ MissionRequest mission_along(const MissionSource& source, Path path) {
 MissionRequest read_mission_source(const MissionSource& source, const ReadOptions& options,
                                    std::vector<std::string>* notes) {
   const auto with_files = [&](MissionRequest mission) {
-    if (!source.robot_file.empty()) mission.robot_file = source.robot_file;
-    if (!source.map_file.empty()) mission.map_file = source.map_file;
+    replace_file(mission, "robot", &MissionRequest::robot_file, source.robot_file);
+    replace_file(mission, "map", &MissionRequest::map_file, source.map_file);
     return mission;
   };
   const auto along = [&](Path path) { return with_files(mission_along(source, std::move(path))); };

@@ -24,6 +24,10 @@ struct MissionSource {
 /// Throws ConfigError where neither the source nor the caller names a robot. `input`: "a path".
 void need_robot(const MissionSource& source, const std::string& input);
 
+/// The file given by the option --KEY, if any, replaces the one of this key; errors about it name the option.
+void replace_file(MissionRequest& mission, const std::string& key, std::string MissionRequest::*file,
+                  const std::string& given);
+
 /// One leg along a path, from rest to rest.
 [[nodiscard]] MissionRequest mission_along(const MissionSource& source, Path path);
 

@@ -21,6 +21,12 @@ void check_payloads(const MissionRequest& request, const Robot& robot) {
   for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
 }
 
+/// The key that names a file, or the option that replaces it.
+NamedBy naming(const MissionRequest& request, const char* key) {
+  const SourceMark& mark = request.marks.at(key);
+  return {mark, mark.line > 0 ? key : ""};
+}
+
 }  // namespace
 
 void check_payload(double payload_kg, const Robot& robot, const std::string& robot_file,
@@ -44,8 +50,7 @@ void check_footprint(const MissionRequest& request, const Robot& robot) {
 }
 
 MissionWorld read_world(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
-  const NamedBy named_by(request.marks.at("robot"), "robot");
-  const Robot used = robot ? *robot : read_robot(request.robot_file, named_by);
+  const Robot used = robot ? *robot : read_robot(request.robot_file, naming(request, "robot"));
   check_payloads(request, used);
   check_footprint(request, used);
   need_uncertainty(request, used);
@@ -53,7 +58,7 @@ MissionWorld read_world(const MissionRequest& request, const ReadOptions& option
 }
 
 MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
-  const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
+  const auto named = [&](const char* key) { return naming(request, key); };
   MissionWorld world{.robot = robot ? *robot : read_robot(request.robot_file, named("robot"))};
   if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
   if (world.map && request.unknown_is_floor)

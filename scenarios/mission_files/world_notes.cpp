@@ -33,8 +33,9 @@ double width_m(const Footprint& footprint) {
 void note_cells(const MissionRequest& mission, const MissionWorld& world, WorldNotes& notes) {
   const double robot_m = width_m(world.robot.footprint);
   if (!world.map || world.map->resolution_m <= kUsualCell_m || world.map->resolution_m < robot_m) return;
+  if (world.map->resolution_m > kCoarsestCell_m) return;  // map_doubts() tells it
   notes.push_back(mission.map_file + ": resolution: a cell of " + four_digits(world.map->resolution_m) +
-                  " m is as wide as the robot (" + four_digits(robot_m) +
+                  " m is not smaller than the robot (" + four_digits(robot_m) +
                   " m); usual maps have 0.02 to 0.1 meters per pixel");
 }
 

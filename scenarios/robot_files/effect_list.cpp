@@ -61,20 +61,26 @@ EffectSetting read_effect(const std::string& name, const Node& node) {
 
 }  // namespace
 
-Schema effect_list_schema() {
+Schema effect_entry_schema() {
   std::vector<Schema::Key> names;
   for (const auto& effect : effect_catalog())
     names.push_back(
         optional(std::string(effect.info.name), effect_schema(effect), std::string(effect.info.law)));
   Schema entry = map(std::move(names));
   entry.min_items = entry.max_items = 1;
-  return list(std::move(entry));
+  return entry;
 }
+
+EffectSetting read_effect_entry(const Node& entry) {
+  const auto [name, parameters] = entry.entries().front();
+  return read_effect(name, parameters);
+}
+
+Schema effect_list_schema() { return list(effect_entry_schema()); }
 
 std::vector<EffectSetting> read_effect_list(const Node& node) {
   std::vector<EffectSetting> settings;
-  for (const auto& item : node.items())
-    for (const auto& [name, parameters] : item.entries()) settings.push_back(read_effect(name, parameters));
+  for (const auto& item : node.items()) settings.push_back(read_effect_entry(item));
   return settings;
 }
 

@@ -136,11 +136,12 @@ void note_motors(const Robot& robot, Notes& notes) {
              able.top_speed_m_s, kMostTopSpeed * limit_m_s, at_limit,
              "is the voltage ten times too high, or gear_ratio that of one stage?");
   if (std::isfinite(limit_m_s))
-    notes.under("motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",
-                able.top_speed_m_s, kLeastTopSpeed * limit_m_s, at_limit,
-                motor.gear_ratio > 1 && motor.torque_constant_Nm_A > kMostTorqueConstant_Nm_A
-                    ? "is motor.torque_constant_Nm_A in mN m/A?"
-                    : "is the voltage that of one cell, or gear_ratio that of another motor?");
+    notes.under(
+        "motor.max_voltage_V: " + four_digits(motor.max_voltage_V) + " V with a top speed of",
+        able.top_speed_m_s, kLeastTopSpeed * limit_m_s, at_limit,
+        motor.gear_ratio > 1 && motor.torque_constant_Nm_A > kMostTorqueConstant_Nm_A
+            ? "is motor.torque_constant_Nm_A in mN m/A?"
+            : "is the limit in km/h, the voltage that of one cell, or gear_ratio that of another motor?");
   notes.under("motor.resistance_ohm", motor.resistance_ohm,
               motor.max_voltage_V / (kMostStallCurrent * motor.max_current_A),
               "ohm for max_voltage_V and max_current_A", "is it in kiloohm?");

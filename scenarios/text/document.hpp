@@ -79,7 +79,7 @@ class Node {
   PathStyle style_;
 };
 
-/// The place where a file is named, for errors about the file; empty: on the command line.
+/// The place where a file is named, for errors about the file; empty, or an option: on the command line.
 struct NamedBy {
   SourceMark mark{};
   std::string key{};  ///< dotted

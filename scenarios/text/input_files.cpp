@@ -64,7 +64,7 @@ std::string read_text_file(const std::string& file, const NamedBy& named_by) {
   if (!stream)
     throw named_by.error(
         file, std::string("no readable file (") + std::strerror(errno) + ")", "a file that can be read",
-        named_by.mark.file.empty() ? "" : "relative paths are relative to the file that names them");
+        named_by.mark.line > 0 ? "relative paths are relative to the file that names them" : "");
   std::string text;
   try {
     text.assign(std::istreambuf_iterator<char>(stream), {});

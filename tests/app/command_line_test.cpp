@@ -137,6 +137,17 @@ TEST(CommandLine, AnEmptyTextIsNoValue) {
   }
 }
 
+TEST(CommandLine, AFileOfAnOptionIsAMistakeOfTheOption) {
+  const ScratchDirectory scratch;
+  for (const std::string option : {"--robot", "--map"}) {
+    const std::string said = "joulepath: " + option + ": found nosuch.yaml, no readable file";
+    const auto result = run_program(scratch, "plan " + kBroken + "good/mission.yaml " + option +
+                                                 " nosuch.yaml --out " + scratch.at("out"));
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err.rfind(said, 0), 0u) << result.err;
+  }
+}
+
 TEST(CommandLine, AnOptionBeforeTheCommandIsReportedAsSuch) {
   const ScratchDirectory scratch;
   const auto result = run_program(scratch, "--out x plan m.yaml");
@@ -394,6 +405,20 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
   EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
 }
 
+TEST(CommandLine, APlanSaysWhyAClassicProfileIsInfeasible) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");
+  std::string robot = text_of(kRobot);
+  const std::string current = "max_current_A: 8.0";
+  robot.replace(robot.find(current), current.size(), "max_current_A: 0.55");
+  const auto result = run_program(scratch, "plan " + path + " --robot " + scratch.write("robot.yaml", robot) +
+                                               " --confidence 0.9 --out " + scratch.at("out"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("trapezoid_max_acceleration: cannot meet the time"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("> 0.999"), std::string::npos) << "a blank where a line can be folded";
+}
+
 /// The second curve leaves margins, of the battery too: its fastest drive is later.
 TEST(CommandLine, AFrontWithAConfidenceIsLaterByItsMargins) {
   const ScratchDirectory scratch;
@@ -600,7 +625,7 @@ TEST(CommandLine, NoLineOnATerminalIsWiderThanOneHundredAndTenColumns) {
   EXPECT_EQ(shown_on_terminal(command), run_program(scratch, command).out);
 }
 
-/// Check tries a mission: a deadline that no drive meets, and with a map a stop in a wall.
+/// Check tries a mission: a deadline that no drive meets is a note, a stop in a wall an error of the file.
 TEST(CommandLine, CheckTriesAMissionCoarsely) {
   const ScratchDirectory scratch;
   write_drive(scratch, 1);
@@ -623,10 +648,11 @@ TEST(CommandLine, CheckTriesAMissionCoarsely) {
   scratch.write("m.yaml",
                 "schema: joulepath/mission/1\nrobot: robot.yaml\nmap: map.yaml\nstations:\n"
                 "  shelf: {x_m: 3.5, y_m: 1}\nstart: {x_m: 1, y_m: 1}\nlegs:\n  - {to: shelf}\n");
-  const std::string walled = notes("");
-  EXPECT_NE(walled.find("tried coarsely: path on leg 1 (shelf): the robot does not fit at the goal"),
+  const auto walled = run_program(scratch, "check " + scratch.at("m.yaml"));
+  EXPECT_EQ(walled.code, 2);
+  EXPECT_NE(walled.err.find("m.yaml:5:10: stations.shelf: found a goal where the robot does not fit"),
             std::string::npos)
-      << walled;
+      << walled.err;
 }
 
 /// A folder with a plan is safe from the next one; a folder with a verdict is free for it.

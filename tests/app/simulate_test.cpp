@@ -129,6 +129,22 @@ TEST(SimulateCommand, WrongInputsAreToldInOneLine) {
   }
 }
 
+TEST(SimulateCommand, AMisspelledEffectOrParameterIsNamedWithTheNearestOne) {
+  const ScratchDirectory scratch;
+  const auto told = [&](const std::string& effect) {
+    return run_program(scratch,
+                       "simulate " + mission(scratch) + " --effect " + effect + " --out " + scratch.at("x"))
+        .err;
+  };
+  const std::string parameter = told("dragging_wheel:side=left,torque=0.15"),
+                    effect = told("draging_wheel:side=left,torque_Nm=0.15");
+  EXPECT_NE(parameter.find("--effect: dragging_wheel.torque: found an unknown key"), std::string::npos)
+      << parameter;
+  EXPECT_NE(parameter.find("did you mean torque_Nm?"), std::string::npos) << parameter;
+  EXPECT_NE(effect.find("--effect: draging_wheel: found an unknown key"), std::string::npos) << effect;
+  EXPECT_NE(effect.find("did you mean dragging_wheel?"), std::string::npos) << effect;
+}
+
 TEST(EffectsCommand, ListsEveryEffectWithUnitsAndRange) {
   const ScratchDirectory scratch;
   const auto json = nlohmann::json::parse(run_program(scratch, "effects --json").out);

@@ -109,7 +109,7 @@ def main():
                 before = sorted(folder.rglob("*"))
                 done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, cwd=folder)
                 asked += 1
-                told = f"a program with the extension {extension}" in done.stderr and place in done.stderr
+                told = all(words in done.stderr for words in (f"a program with the extension {extension}", "./dev build", place))
                 if done.returncode != 2 or not told or sorted(folder.rglob("*")) != before:
                     faults.append(f"{extension}: {part} {name}: {' '.join(map(str, arguments))}\n  exit {done.returncode}: {done.stderr}")
     print("\n".join(faults) or f"{asked} questions: each error names the extension and the place")

@@ -168,7 +168,9 @@ TEST(Mission, ALateArrivalNamesTheDwellAndWhereADeadlineCountsFrom) {
     mission.objective.deadline_s = of_mission_s;
     return lone_plan_of(mission).message;
   };
-  EXPECT_NE(message(2000, {}, 90).find("2000.000 s of that time are dwell"), std::string::npos);
+  EXPECT_NE(message(2000, {}, 90).find("2000.000 s of its time are dwell"), std::string::npos);
+  EXPECT_NE(message(3, {}, 2).find("3.000 s of its time are dwell"),
+            std::string::npos);  // late without it, too
   EXPECT_EQ(message(0, {}, 5).find("dwell"), std::string::npos);
   EXPECT_NE(message(0, 5, {}).find("counted from the mission's start"), std::string::npos);
   EXPECT_EQ(message(0, {}, 5).find("counted from"), std::string::npos);

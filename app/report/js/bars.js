@@ -16,10 +16,10 @@ jp.bar_rows = function (rows, options = {}) {
     h("span", {class: "n"}, row.text)]));
 };
 
-/** Values against a base: bars of the differences, where bars from zero would all look alike. */
-jp.difference_rows = (rows, base, unit) => jp.bar_rows(rows.map((row) => {
-  const more = row.value - base;
-  return {label: row.label, value: Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0, color: more < 0 ? "var(--third)" : "var(--second)", text: `${with_unit(row.value, unit)} (${signed(Math.abs(more) > 1e-9 * Math.abs(base) ? more : 0)})`};
+/** Values, each against a base of its own: bars of the differences, where bars from zero would all look alike. */
+jp.difference_rows = (rows, unit) => jp.bar_rows(rows.map(({label, value, base}) => {
+  const more = Math.abs(value - base) > 1e-9 * Math.abs(base) ? value - base : 0;
+  return {label, value: more, color: more < 0 ? "var(--third)" : "var(--second)", text: `${with_unit(value, unit, 6)} (${signed(more)})`};
 }));
 
 const kCauseColors = {standby: ["#8b949e", "#000"], copper: ["#e69f00", "#000"], coulomb_friction: ["#0072b2", "#fff"], viscous_friction: ["#56b4e9", "#000"],

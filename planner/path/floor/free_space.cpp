@@ -168,15 +168,20 @@ bool FreeSpace::connected(const Point2& a_m, const Point2& b_m) const {
 
 std::optional<Point2> FreeSpace::nearest_reachable(const Point2& start_m, const Point2& goal_m) const {
   const auto label = component(start_m);
-  if (!label) return std::nullopt;
+  return label ? nearest_free(goal_m, label, [](const Point2&) { return true; }) : std::nullopt;
+}
+
+std::optional<Point2> FreeSpace::nearest_free(const Point2& point_m, std::optional<int> component,
+                                              const std::function<bool(const Point2&)>& fits) const {
   double best_squared = std::numeric_limits<double>::infinity();
-  Point2 best = start_m;
+  std::optional<Point2> best;
   for (int row = 0; row < grid_.height; ++row)
     for (int column = 0; column < grid_.width; ++column) {
-      if (component_[index({column, row})] != *label) continue;
+      const std::int32_t label = component_[index({column, row})];
+      if (label < 0 || label != component.value_or(label)) continue;
       const Point2 c = grid_.center_of({column, row});
-      const double squared = std::pow(c[0] - goal_m[0], 2) + std::pow(c[1] - goal_m[1], 2);
-      if (squared < best_squared) best_squared = squared, best = c;
+      const double squared = std::pow(c[0] - point_m[0], 2) + std::pow(c[1] - point_m[1], 2);
+      if (squared < best_squared && fits(c)) best_squared = squared, best = c;
     }
   return best;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -30,6 +31,11 @@ class FreeSpace {
   [[nodiscard]] bool connected(const Point2& a_m, const Point2& b_m) const;
   /// The place nearest to `goal` that can be reached from `start`; absent if `start` has no component.
   [[nodiscard]] std::optional<Point2> nearest_reachable(const Point2& start_m, const Point2& goal_m) const;
+
+  /// The center of a free cell nearest to a point, of one component or of any, where `fits` holds; absent if
+  /// there is none.
+  [[nodiscard]] std::optional<Point2> nearest_free(const Point2& point_m, std::optional<int> component,
+                                                   const std::function<bool(const Point2&)>& fits) const;
 
   /// Cells that a way may use.
   enum class Cells {

@@ -39,6 +39,14 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
+/// "(x, y) m, d m away"
+std::string place_text(const Point2& near, double from_x_m, double from_y_m) {
+  char text[120];
+  std::snprintf(text, sizeof text, "(%.3f, %.3f) m, %.3f m away", near[0], near[1],
+                std::hypot(near[0] - from_x_m, near[1] - from_y_m));
+  return text;
+}
+
 /// Adds a special message for a place that the map does not contain or does not know.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
@@ -68,18 +76,54 @@ RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Poin
                        space.nearest_reachable(start, goal), ""};
   char text[320];
   if (verdict.nearest_reachable_m) {
-    const Point2& near = *verdict.nearest_reachable_m;
-    std::snprintf(
-        text, sizeof text,
-        "no way to (%.3f, %.3f) m for this footprint and clearance; nearest reachable place (%.3f, %.3f) m, "
-        "%.3f m away",
-        goal[0], goal[1], near[0], near[1], std::hypot(near[0] - goal[0], near[1] - goal[1]));
+    std::snprintf(text, sizeof text,
+                  "no way to (%.3f, %.3f) m for this footprint and clearance; nearest reachable place %s",
+                  goal[0], goal[1], place_text(*verdict.nearest_reachable_m, goal[0], goal[1]).c_str());
   } else {
     std::snprintf(text, sizeof text,
                   "no way out of the start (%.3f, %.3f) m for this footprint and clearance", start[0],
                   start[1]);
   }
   verdict.message = text;
+  return verdict;
+}
+
+/// Where a way begins or ends.
+struct RouteEnd {
+  RouteStatus blocked{};
+  const char* name{};
+  Pose pose{};
+  bool heading_free{};
+};
+
+/// Where the heading is free, some heading must fit: the inscribed disc is checked.
+std::optional<Collision> standing_collision(const RouteSpace& space, const Pose& pose, bool heading_free) {
+  if (!heading_free) return space.checker().pose_collision(pose);
+  const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
+  const auto nearest = space.field().nearest(pose.x_m, pose.y_m);
+  if (nearest.distance_m >= need_m - FootprintChecker::kTolerance_m) return std::nullopt;
+  return Collision{0, pose, need_m - nearest.distance_m, nearest};
+}
+
+/// The place nearest to an end where the robot can stand as it should there, on the other end's part of the
+/// floor; on any part if the other end is on none.
+std::optional<Point2> nearest_standing(const RouteSpace& space, const RouteEnd& end, const Pose& other) {
+  const FreeSpace& floor = space.some_heading();
+  return floor.nearest_free(
+      {end.pose.x_m, end.pose.y_m}, floor.component({other.x_m, other.y_m}), [&](const Point2& p) {
+        return !standing_collision(space, {p[0], p[1], end.pose.heading_rad}, end.heading_free);
+      });
+}
+
+std::optional<RouteVerdict> blocked_end(const RouteSpace& space, const RouteEnd& end, const Pose& other) {
+  const auto collision = standing_collision(space, end.pose, end.heading_free);
+  if (!collision) return std::nullopt;
+  const std::string what = std::string("the robot does not fit at the ") + end.name;
+  RouteVerdict verdict =
+      told_of_the_map(blocked(end.blocked, what.c_str(), *collision), space.field(), end.name);
+  verdict.nearest_reachable_m = nearest_standing(space, end, other);
+  if (verdict.nearest_reachable_m)
+    verdict.message += "; it fits at " + place_text(*verdict.nearest_reachable_m, end.pose.x_m, end.pose.y_m);
   return verdict;
 }
 
@@ -96,22 +140,13 @@ Path with_end_turns(const Path& inner, const RouteRequest& request) {
 }  // namespace
 
 std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request) {
-  // Where the heading is free, some heading must fit: the inscribed disc is checked.
-  const auto check = [&](const Pose& pose, bool heading_free) -> std::optional<Collision> {
-    if (!heading_free) return space.checker().pose_collision(pose);
-    const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
-    const auto nearest = space.field().nearest(pose.x_m, pose.y_m);
-    if (nearest.distance_m >= need_m - FootprintChecker::kTolerance_m) return std::nullopt;
-    return Collision{0, pose, need_m - nearest.distance_m, nearest};
-  };
-  const Pose goal{request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)};
-  if (const auto c = check(request.start, request.start_heading_free))
-    return told_of_the_map(blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c),
-                           space.field(), "start");
-  if (const auto c = check(goal, !request.goal_heading_rad))
-    return told_of_the_map(blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c),
-                           space.field(), "goal");
-  return std::nullopt;
+  const RouteEnd start{RouteStatus::start_blocked, "start", request.start, request.start_heading_free};
+  const RouteEnd goal{RouteStatus::goal_blocked,
+                      "goal",
+                      {request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)},
+                      !request.goal_heading_rad};
+  if (auto verdict = blocked_end(space, start, goal.pose)) return verdict;
+  return blocked_end(space, goal, start.pose);
 }
 
 std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request) {

@@ -305,6 +305,16 @@ def check_texts(browser, folder):
     assert marks == ["trapezoid best tuned"] * 2, f"marks of the legends: {marks}"
 
 
+def check_bars(browser, folder):
+    """Bars of energies show the energies of the table under them, also of a profile that is later than the plan."""
+    for name, section in (("plan", "Against classic profiles"), ("compare", "Energy")):
+        browser.open(f"{folder}/{name}.html", "light")
+        texts = "return [...document.querySelectorAll(`section[aria-label='%s'] %s`)].map((e) => e.textContent)"
+        bars, cells = (browser.run(texts % (section, what)) for what in (".rows .n", "td"))
+        strangers = [text for text in bars if text.split("\u202f")[0] not in cells]
+        assert len(bars) >= 2 and not strangers, f"{name}: the bars {strangers} are not in the table {cells}"
+
+
 def check_without_scripts(browser, file, said):
     """With scripts off the numbers stand in tables."""
     browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": True}})
@@ -354,6 +364,7 @@ def main():
             check_diagnosis(browser, f"{folder}/diagnosis.html")
             check_bands(browser, folder)
             check_texts(browser, folder)
+            check_bars(browser, folder)
             for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("loss", 3), ("front", 2), ("batch", 0)):
                 check_keyboard(browser, f"{folder}/{kind}.html")
                 for theme in ("dark", "light"):

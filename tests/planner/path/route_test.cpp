@@ -231,6 +231,20 @@ TEST(Route, SaysWhyAndWhereThereIsNone) {
   EXPECT_FALSE(goal.verdict.message.empty());
 }
 
+TEST(Route, ABlockedEndIsToldByItsDistanceToAPlaceWhereTheRobotFits) {
+  const RouteSpace space(free_grid(200, 100, 0.1), nullptr, kDisc, 0.05);  // 20 m x 10 m, 0.3 m to its edge
+  const auto distance_m = [&](const RouteRequest& request) {
+    const RouteVerdict verdict = *blocked_ends(space, request);
+    const auto near = verdict.nearest_reachable_m.value_or(Point2{kNoLimit, kNoLimit});
+    return std::hypot(near[0] - verdict.x_m, near[1] - verdict.y_m);
+  };
+  EXPECT_NEAR(distance_m(across(5, 5, 5, 70)), 60.3, 0.05);
+  EXPECT_NEAR(distance_m(across(5, -20, 5, 5)), 20.3, 0.05);
+  RouteRequest facing = across(5, 5, 19.9, 5);
+  facing.goal_heading_rad = 1.0;
+  EXPECT_NEAR(distance_m(facing), 0.2, 0.05);
+}
+
 TEST(Route, KeepoutIsNeverCrossedAndIsNamed) {
   const OccupancyGrid map = free_grid(200, 100, 0.1);
   OccupancyGrid keepout = free_grid(200, 100, 0.1);

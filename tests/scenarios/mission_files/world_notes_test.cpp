@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "scenarios/any_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/path_file.hpp"
@@ -47,8 +49,9 @@ TEST(WorldNotes, CellsAsWideAsTheRobotAreNoted) {
   const auto notes_at = [](double resolution_m) {
     return added_notes([&](MissionRequest&, MissionWorld& world) { world.map->resolution_m = resolution_m; });
   };
-  EXPECT_TRUE(tells(notes_at(0.5), "resolution: a cell of 0.5 m is as wide as the robot"));
+  EXPECT_TRUE(tells(notes_at(0.5), "resolution: a cell of 0.5 m is not smaller than the robot"));
   EXPECT_TRUE(notes_at(0.1).empty());
+  EXPECT_TRUE(notes_at(5).empty()) << "the map file's own note tells it";
 }
 
 TEST(WorldNotes, ARouteGraphOutsideOfTheMapIsNoted) {
@@ -70,6 +73,13 @@ TEST(WorldNotes, ARobotsImplausibleConstantIsToldOfItsFile) {
   world.robot.power.standby_W *= 1000;
   EXPECT_EQ(notes.size(), 1u);
   EXPECT_EQ(world_notes(mission, world).front().rfind(mission.robot_file + ": power.standby_W", 0), 0u);
+}
+
+TEST(WorldNotes, TheShippedMissionsHaveNone) {
+  for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/missions")) {
+    const MissionRequest mission = read_mission(entry.path().string());
+    EXPECT_EQ(world_notes(mission, read_world(mission)), std::vector<std::string>{}) << entry.path();
+  }
 }
 
 TEST(WorldNotes, PointsOfAPathThatAreFarApartAreNoted) {

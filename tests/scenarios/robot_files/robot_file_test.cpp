@@ -125,6 +125,13 @@ TEST(RobotFile, MotorsThatDoNotFitTheRobotAreNoted) {
   }
 }
 
+TEST(RobotFile, ASpeedLimitInKilometersPerHourIsAskedFor) {
+  Robot robot = read_robot(kNomad);
+  robot.limits->speed_m_s *= 3.6;
+  ASSERT_FALSE(implausible_constants(robot).empty());
+  EXPECT_NE(implausible_constants(robot)[0].find("is the limit in km/h"), std::string::npos);
+}
+
 TEST(RobotFile, TextReadsBackAsTheSameRobot) {
   Robot robot = read_robot(kNomad);
   robot.geometry.wheel_radius_m = {0.1 / 3.0, 0.1};
