@@ -1,5 +1,6 @@
 #include "app/report/plan_report.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -77,6 +78,19 @@ Extras named_extras(const MissionRequest& mission, const MissionWorld& world) {
   return extras;
 }
 
+/// The start and the stations that a mission goes to.
+std::vector<MapPlace> stations_of(const MissionRequest& mission) {
+  std::vector<MapPlace> places{{"start", mission.start.pose.x_m, mission.start.pose.y_m}};
+  const auto goes_to = [&](const std::string& name) {
+    return std::ranges::count(mission.legs, name, &LegRequest::to) +
+               std::ranges::count(mission.visit, name, &VisitRequest::station) >
+           0;
+  };
+  for (const auto& [name, station] : mission.stations)
+    if (goes_to(name)) places.push_back({name, station.x_m, station.y_m});
+  return places;
+}
+
 }  // namespace
 
 MissionExtras mission_extras(const Plan& plan, const MissionRequest& mission, const MissionWorld& world) {
@@ -95,6 +109,7 @@ std::string plan_report(const Plan& plan, const std::string& plan_json, const Tr
   auto extras = named_extras<PlanExtras>(mission, world);
   extras.operation = operation;
   extras.limits = world.robot.limits;
+  if (trajectory.size() == 0) extras.stations = stations_of(mission);
   Columns columns = columns_of(trajectory);
   if (!columns.empty()) {
     columns.merge(limit_columns(world.robot, columns));

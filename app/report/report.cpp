@@ -168,6 +168,8 @@ std::string plan_report_html(const json& plan, const Columns& trajectory, const 
   json data{{"plan", plan}, {"title", extras.title}, {"subtitle", extras.subtitle}};
   if (!trajectory.empty()) data["trajectory"] = json_of(trajectory, kMostRows);
   if (extras.map) data["map"] = json_of(*extras.map);
+  for (const auto& [name, x_m, y_m] : extras.stations)
+    data["stations"].push_back({{"name", name}, {"x_m", x_m}, {"y_m", y_m}});
   if (extras.limits) data["limits"] = json_of(*extras.limits);
   data["overlays"] = json_of(extras.overlays);
   for (const Saving& saving : extras.savings)

@@ -40,6 +40,12 @@ struct Operation {
   std::optional<double> missions_per_day{}, price_per_kWh{};
 };
 
+/// A named place on the floor.
+struct MapPlace {
+  std::string name{};
+  double x_m{}, y_m{};
+};
+
 /// Further content of a plan report besides plan.json and the trajectory; each part may be absent.
 struct PlanExtras {
   std::string title{};     ///< the mission's name
@@ -50,6 +56,7 @@ struct PlanExtras {
   std::vector<Saving> savings{};
   PlanBands bands{};
   Operation operation{};
+  std::vector<MapPlace> stations{};  ///< drawn where there is no trajectory
 };
 
 /// One run of a diagnosis: `time_s`, and for each signal X that the run measured `measured_X`, `predicted_X`

@@ -4,7 +4,7 @@ import {is_number, short, split_key, words} from "page/numbers.js";
 import {on_theme, toggle_theme} from "page/theme.js";
 
 /** What the parts of a report share; tests look at it, too. */
-export const jp = Object.assign(window.joulepath, {redraws: [], plots: [], data: JSON.parse(document.getElementById("data").textContent)});
+export const jp = Object.assign(window.joulepath, {redraws: [], plots: [], maps: [], data: JSON.parse(document.getElementById("data").textContent)});
 
 jp.key_value = function (key, value, digits = 4) {
   const {words: name, unit} = split_key(key);

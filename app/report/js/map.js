@@ -1,6 +1,6 @@
 /** The floor of a report: grid, path colored by speed, marks, cells of a gap, and the cursor on it. */
 import {h, sharp} from "page/dom.js";
-import {draw_cross, draw_picture, draw_robot, draw_scale, draw_text, draw_way, floor_view, nearest_row, picture_of, rgb, show_places} from "page/floor.js";
+import {box_of, corners_of, draw_cross, draw_picture, draw_robot, draw_scale, draw_text, draw_way, floor_view, nearest_row, picture_of, rgb} from "page/floor.js";
 import {fraction} from "page/numbers.js";
 import {color, is_dark, ramp} from "page/theme.js";
 import {jp} from "report/core.js";
@@ -38,22 +38,25 @@ function draw_marks(context, view, marks) {
   }
 }
 
-/** {grid, x, y, heading, speed, marks: [{x, y, kind, text}], cells: [{x_min_m, .., share}], cursor, whole, label} */
-jp.floor_map = function ({grid, x = [], y = [], heading = [], speed = [], marks = [], cells = [], cursor, whole = false, label}) {
+/** {grid, x, y, heading, speed, marks: [{x, y, kind, text}], cells: [{x_min_m, .., share}], cursor, label}: the whole map and all of these
+ *  places, in a box of their shape; after show_whole(false) the places alone. */
+jp.floor_map = function ({grid, x = [], y = [], heading = [], speed = [], marks = [], cells = [], cursor, label}) {
   const canvas = h("canvas", {role: "img", "aria-label": label || "Map with the path", tabindex: cursor ? "0" : null});
   const element = h("div", {class: "floor-box"}, canvas), view = floor_view();
   const top_speed = speed.reduce((most, v) => Math.max(most, Math.abs(v)), 1e-9), by_speed = (k) => ramp(Math.abs(speed[k] + speed[k - 1]) / 2 / top_speed);
-  let picture, picture_dark;
-  const show = () => {
-    const places = whole ? [] : [...marks, ...cells.flatMap((cell) => [{x: cell.x_min_m, y: cell.y_min_m}, {x: cell.x_max_m, y: cell.y_max_m}])];
-    show_places(view, [...(whole ? [] : x), ...places.map((place) => place.x)], [...(whole ? [] : y), ...places.map((place) => place.y)], grid);
+  let picture, picture_dark, whole = true;
+  const box = () => {
+    const places = [...marks, ...cells.flatMap((cell) => [{x: cell.x_min_m, y: cell.y_min_m}, {x: cell.x_max_m, y: cell.y_max_m}]), ...(grid && whole ? corners_of(grid) : [])];
+    return box_of([...x, ...places.map((place) => place.x)], [...y, ...places.map((place) => place.y)]);
   };
-  const map = {element, canvas,
+  const [x0, y0, x1, y1] = box();
+  element.style.aspectRatio = Math.max(1, x1 - x0) / Math.max(1, y1 - y0);
+  const map = {element, canvas, view, marks,
     draw() {
       if (!element.clientWidth) return;
       const {context, width, height} = sharp(canvas);
       Object.assign(view, {width, height});
-      show();
+      view.show(...box());
       context.fillStyle = color(grid ? "map-unknown" : "map-free"); context.fillRect(0, 0, width, height);
       if (grid && picture_dark !== is_dark()) {
         const shades = kClasses.map(rgb);
@@ -63,14 +66,15 @@ jp.floor_map = function ({grid, x = [], y = [], heading = [], speed = [], marks 
       if (grid) draw_picture(context, view, grid, picture);
       draw_cells(context, view, cells);
       draw_way(context, view, x, y, by_speed, speed);
+      draw_scale(context, view);
       draw_marks(context, view, marks);
       const row = cursor ? cursor.row : -1;
       if (row >= 0 && row < x.length) draw_robot(context, view, {x: x[row], y: y[row], heading: heading[row]});
-      draw_scale(context, view);
     },
     show_whole(value) { whole = value; map.draw(); }};
   if (cursor) follow(cursor, canvas, map, () => view, x, y);
   jp.redraws.push(map.draw);
+  jp.maps.push(map);
   return map;
 };
 

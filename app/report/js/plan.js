@@ -78,7 +78,7 @@ jp.plan_tiles = function (data) {
 jp.infeasibility_box = function (plan) {
   const why = plan.infeasibility;
   if (!why) return null;
-  const relax = Object.entries(why.relaxation || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
+  const relax = Object.entries(why.relaxation || {}).map(([key, value]) => jp.key_value(key, value, 6)).join(", ");
   return h("div", {class: "notice", role: "alert"}, why.message ? h("div", {}, why.message) : null,
     h("div", {}, `At ${with_unit(why.arc_length_m, "m")} of the leg (x ${number(why.x_m)}, y ${number(why.y_m)}).`),
     relax ? h("div", {}, "Smallest change that works: " + relax + ".") : null);
@@ -248,7 +248,7 @@ jp.motion_section = function (data) {
   const map = c.position_x_m ? jp.floor_map({grid: data.map, x: c.position_x_m, y: c.position_y_m, heading: c.heading_rad, speed: v, marks: jp.station_marks(jp.goals_of(data.plan), c, turns), cursor}) : null;
   const scale = h("span", {class: "ramp"});
   jp.redraws.push(() => { scale.style.background = ramp_css(); });
-  const whole = button("Whole map", () => { const on = whole.getAttribute("aria-pressed") !== "true"; whole.setAttribute("aria-pressed", String(on)); map.show_whole(on); }, {"aria-pressed": "false"});
+  const whole = button("Whole map", () => { const on = whole.getAttribute("aria-pressed") !== "true"; whole.setAttribute("aria-pressed", String(on)); map.show_whole(on); }, {"aria-pressed": "true"});
   const section = jp.section("The motion", h("div", {class: "side"},
     map ? h("div", {class: "stay"}, map.element, h("div", {class: "scale"}, "0", scale, with_unit(v.reduce((a, b) => Math.max(a, Math.abs(b)), 0), "m/s", 3), " ↻ turn in place" + (v.some((one) => one < 0) ? "; light core: in reverse" : ""), data.map ? whole : null),
       turns.length ? h("p", {class: "soft small"}, `${turns.length} turn${turns.length > 1 ? "s" : ""} in place: ` + turns.map((turn) => number(turn.angle_rad * 180 / Math.PI, 3) + "°").join(", ")) : null) : null,
@@ -258,8 +258,8 @@ jp.motion_section = function (data) {
 };
 
 jp.goals_of = (plan) => (plan.legs || []).map((one) => one.to);
-/** Start and goals of a way, and the place of a problem. */
-jp.station_marks = function (goals, c, turns, why) {
+/** Start and goals of a way. */
+jp.station_marks = function (goals, c, turns) {
   const leg = c.leg || [], marks = [...turns];
   const x = c.position_x_m || [], y = c.position_y_m || [];
   if (x.length) marks.push({x: x[0], y: y[0], kind: "station", text: "start"});
@@ -268,13 +268,19 @@ jp.station_marks = function (goals, c, turns, why) {
     const at = leg[k - 1] ?? 0;
     marks.push({x: x[k - 1], y: y[k - 1], kind: "station", text: `${at + 1} ${goals[at] || ""}`.trim()});
   }
-  if (why && is_number(why.x_m)) marks.push({x: why.x_m, y: why.y_m, kind: "problem", text: words(why.constraint)});
   return marks;
+};
+/** Stations, and the place of a problem: by the name of the station there, else by what is exceeded. */
+jp.problem_marks = function (stations, why) {
+  const marks = stations.map((one) => ({x: one.x_m, y: one.y_m, kind: "station", text: one.name}));
+  if (!why || !is_number(why.x_m)) return marks;
+  const here = marks.findLast((one) => Math.hypot(one.x - why.x_m, one.y - why.y_m) < 1e-3);
+  return [...marks.filter((one) => one !== here), {x: why.x_m, y: why.y_m, kind: "problem", text: here ? here.text : words(why.constraint)}];
 };
 
 jp.draw_plan = function (data) {
   const plan = data.plan, good = plan.status === "optimal" || plan.status === "feasible", motion = good ? jp.motion_section(data) : null;
-  const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.station_marks([], {}, [], plan.infeasibility), whole: true, label: "Map with the place of the problem"}).element : null;
+  const floor = !motion && data.map ? jp.floor_map({grid: data.map, marks: jp.problem_marks(data.stations || [], plan.infeasibility), label: "Map with the place of the problem"}).element : null;
   const why = plan.infeasibility || {};
   jp.page(jp.header(data.title || "Plan", good ? jp.plan_sentence(plan) : why.constraint ? `No plan: ${words(why.constraint)} on leg ${jp.leg_name(why, why.leg ?? 0)}, missed by ${with_unit(why.amount, why.unit || "")}.` : `No plan: ${plan.message}.`, plan.status, good), jp.infeasibility_box(plan), good ? [jp.plan_tiles(data), jp.quality_text(plan)] : null,
     motion, floor, jp.baseline_section(plan), jp.energy_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.confidence_section(plan), jp.battery_section(plan), jp.winding_section(plan), jp.trust_section(plan));

@@ -19,11 +19,20 @@ export const floor_view = () => {
     }};
   return view;
 };
+/** The corners of a map: [{x, y}]. */
+export function corners_of(grid) {
+  const [x, y, heading] = grid.origin, c = Math.cos(heading), s = Math.sin(heading), wide = grid.width * grid.resolution_m, tall = grid.height * grid.resolution_m;
+  return [[0, 0], [wide, 0], [wide, tall], [0, tall]].map(([u, v]) => ({x: x + c * u - s * v, y: y + s * u + c * v}));
+}
+/** The box around places: [x0, y0, x1, y1]. */
+export function box_of(xs, ys) {
+  const low = (values) => values.reduce((a, b) => Math.min(a, b), Infinity), high = (values) => values.reduce((a, b) => Math.max(a, b), -Infinity);
+  return [low(xs), low(ys), high(xs), high(ys)];
+}
 /** Shows places of a list, or the whole map where there is none. */
 export function show_places(view, xs, ys, grid) {
-  const low = (values) => values.reduce((a, b) => Math.min(a, b), Infinity), high = (values) => values.reduce((a, b) => Math.max(a, b), -Infinity);
-  if (xs.length) view.show(low(xs), low(ys), high(xs), high(ys));
-  else if (grid) view.show(grid.origin[0], grid.origin[1], grid.origin[0] + grid.width * grid.resolution_m, grid.origin[1] + grid.height * grid.resolution_m);
+  if (xs.length) view.show(...box_of(xs, ys));
+  else if (grid) show_places(view, corners_of(grid).map((one) => one.x), corners_of(grid).map((one) => one.y));
 }
 
 export const rgb = (name) => [1, 3, 5].map((at) => parseInt(color(name).slice(at, at + 2), 16));

@@ -305,6 +305,26 @@ def check_texts(browser, folder):
     assert marks == ["trapezoid best tuned"] * 2, f"marks of the legends: {marks}"
 
 
+def check_map(browser, folder):
+    """The first view has the whole map and all marks, with little around them; without a plan the stations, too."""
+    outside = """const [map] = joulepath.maps, grid = joulepath.data.map, [x, y] = grid.origin, wide = grid.width * grid.resolution_m, tall = grid.height * grid.resolution_m;
+      const places = [[x, y], [x + wide, y], [x + wide, y + tall], [x, y + tall], ...map.marks.map((one) => [one.x, one.y])].map(([at_x, at_y]) => map.view.at(at_x, at_y));
+      return places.filter(([px, py]) => px < 0 || py < 0 || px > map.view.width || py > map.view.height).length"""
+    filled = """const [map] = joulepath.maps, grid = joulepath.data.map, across = [grid.width * grid.resolution_m * map.view.scale / map.view.width, grid.height * grid.resolution_m * map.view.scale / map.view.height];
+      return Math.max(...across)"""
+    for pixels in (400, 1280, 1920):
+        browser.width(pixels)
+        for name in ("plan", "compare", "infeasible"):
+            browser.open(f"{folder}/{name}.html", "light")
+            assert browser.run(outside) == 0, f"{name}, {pixels} px: corners of the map or marks outside of the view"
+        browser.open(f"{folder}/plan.html", "light")
+        assert browser.run(filled) > 0.8, f"{pixels} px: the map fills {browser.run(filled)} of its box"
+    browser.open(f"{folder}/infeasible.html", "light")
+    said = browser.run("return joulepath.maps[0].marks.map((one) => `${one.kind} ${one.text}`)")
+    assert said == ["station start", "station shelf <3> & co", "station off the map", "problem dock"], said
+    browser.width(1280)
+
+
 def check_bars(browser, folder):
     """Bars of energies show the energies of the table under them, also of a profile that is later than the plan."""
     for name, section in (("plan", "Against classic profiles"), ("compare", "Energy")):
@@ -365,6 +385,7 @@ def main():
             check_bands(browser, folder)
             check_texts(browser, folder)
             check_bars(browser, folder)
+            check_map(browser, folder)
             for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("loss", 3), ("front", 2), ("batch", 0)):
                 check_keyboard(browser, f"{folder}/{kind}.html")
                 for theme in ("dark", "light"):

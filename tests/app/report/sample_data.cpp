@@ -163,6 +163,10 @@ json infeasible_plan() {
             {"relaxation", {{"deadline_s", 62.3}}}}}};
 }
 
+std::vector<MapPlace> stations() {
+  return {{"start", 1.0, 1.0}, {"shelf <3> & co", 7.0, 1.0}, {"dock", 4.0, 2.2}, {"off the map", 4.0, 20.0}};
+}
+
 OccupancyGrid hall() {
   OccupancyGrid grid{180, 140, 0.05, {0, 0, 0}, {}, "hall"};
   for (int row = 0; row < grid.height; ++row)

@@ -12,6 +12,7 @@ namespace joulepath::report::sample {
 [[nodiscard]] nlohmann::json plan();
 [[nodiscard]] PlanBands bands();
 [[nodiscard]] nlohmann::json infeasible_plan();
+[[nodiscard]] std::vector<MapPlace> stations();  ///< one of them off the map
 [[nodiscard]] OccupancyGrid hall();
 [[nodiscard]] nlohmann::json diagnosis();
 [[nodiscard]] std::vector<RunComparison> runs();

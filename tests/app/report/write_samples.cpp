@@ -23,8 +23,11 @@ int main(int argc, char** argv) {
   extras.bands = sample::bands();
   extras.operation = {.missions_per_day = 40, .price_per_kWh = 0.3};
   write("plan", plan_report_html(sample::plan(), sample::trajectory(), extras));
-  write("infeasible",
-        plan_report_html(sample::infeasible_plan(), {}, {"Sample round", "made-up data", map, {}, {}}));
+  write(
+      "infeasible",
+      plan_report_html(
+          sample::infeasible_plan(), {},
+          {.title = "Sample round", .subtitle = "made-up data", .map = map, .stations = sample::stations()}));
   write("diagnosis",
         diagnosis_report_html(sample::diagnosis(), {"Sample runs", "made-up data", map, sample::runs()}));
   const MissionExtras mission{
