@@ -319,6 +319,8 @@ def check_map(browser, folder):
             assert browser.run(outside) == 0, f"{name}, {pixels} px: corners of the map or marks outside of the view"
         browser.open(f"{folder}/plan.html", "light")
         assert browser.run(filled) > 0.8, f"{pixels} px: the map fills {browser.run(filled)} of its box"
+        alone = browser.run("const tiles = [...document.querySelectorAll('.tile')], right = Math.max(...tiles.map((e) => e.getBoundingClientRect().right)); return right - tiles.at(-1).getBoundingClientRect().right")
+        assert alone < 1, f"{pixels} px: the last row of tiles ends {alone} px early"
     browser.open(f"{folder}/infeasible.html", "light")
     said = browser.run("return joulepath.maps[0].marks.map((one) => `${one.kind} ${one.text}`)")
     assert said == ["station start", "station shelf <3> & co", "station off the map", "problem dock"], said
