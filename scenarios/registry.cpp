@@ -70,7 +70,8 @@ std::string accepted_extension(std::string_view extension) {
 }
 
 std::string extension_hint(std::string_view extension) {
-  return "this program was built without " + std::string(extension) + "; in a clone, ./dev build builds all extensions";
+  return "this program was built without " + std::string(extension) +
+         "; in a clone, ./dev build builds all extensions";
 }
 
 void refuse_absent_word(std::string_view part, const std::string& word, const Node& place) {
