@@ -50,9 +50,10 @@ void print_where(std::ostream& out, const Diagnosis& d) {
 void print_gap(std::ostream& out, const std::string& of, const EnergyGap& e, const Diagnosis& d) {
   out << of << " gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
-  if (!d.causes.empty())
-    out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
-        << percent(e.shrink_interval_95.first) << ", " << percent(e.shrink_interval_95.second) << "]";
+  if (!d.causes.empty()) out << " -> " << figure(e.after_percent, 3) << " %";
+  if (!d.causes.empty() && e.before_percent > e.noise_floor_percent)  // of noise alone a share says nothing
+    out << ", shrunk by " << percent(e.shrink_fraction) << " [" << percent(e.shrink_interval_95.first) << ", "
+        << percent(e.shrink_interval_95.second) << "]";
   out << ", noise floor " << figure(e.noise_floor_percent, 3) << " %\n";
 }
 
@@ -78,16 +79,21 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
         << ", evidence " << figure(small.evidence, 3) << ", " << figure(small.size, 2) << " of the floor\n";
 }
 
+/// Whose gap is told: that of the motors where they are measured.
+std::string measured_energy(const Diagnosis& d) {
+  return d.gap.battery_energy ? "the motors' energy" : "the energy";
+}
+
 /// What the causes are worth: in plans, against the most flexible model and against a wrong candidate.
 void print_worth(std::ostream& out, const Diagnosis& d) {
+  const std::string shrinks = " shrinks " + measured_energy(d) + " gap by ";
   if (d.decision_missions > 0)
     out << "decisions: plans with the uncorrected model lose " << figure(d.joules_lost_percent, 2)
         << " % of their energy on " << d.decision_missions << " standard missions\n";
   if (!d.causes.empty())
-    out << "ceiling: the most flexible model shrinks the gap by " << percent(d.ceiling_shrink_fraction)
-        << '\n';
+    out << "ceiling: the most flexible model" << shrinks << percent(d.ceiling_shrink_fraction) << '\n';
   if (!d.control_effect.empty())
-    out << "control: " << d.control_effect << " (a wrong candidate) shrinks the gap by "
+    out << "control: " << d.control_effect << " (a wrong candidate)" << shrinks
         << percent(d.control_shrink_fraction) << '\n';
 }
 
@@ -101,7 +107,7 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
     if (!more.empty()) out << more << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;
-  print_gap(out, d.gap.battery_energy ? "the motors' energy" : "energy", d.gap.energy, d);
+  print_gap(out, measured_energy(d), d.gap.energy, d);
   if (d.gap.battery_energy) print_gap(out, "the battery's energy", *d.gap.battery_energy, d);
   print_causes(out, d);
   print_worth(out, d);
