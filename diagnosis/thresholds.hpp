@@ -433,6 +433,8 @@ inline constexpr double kStandInLoss = 6.0;
 inline constexpr double kSigmasOutOfRange = 2.0;
 /// Explanations compared with a named one. Declared: bounds time.
 inline constexpr std::size_t kMostRivals = 100;
+/// Laws that runs favour by turns, beside the one named. Declared: more are no answer.
+inline constexpr std::size_t kMostLikelyRivals = 2;
 /// Prior widths that leave an amplitude to the data. Chosen.
 inline constexpr double kFreeAmplitude = 30.0;
 /// A less likely effect, group or unknown term is not named; a group without a member as likely is ambiguous.

@@ -39,7 +39,7 @@ double top_speed_m_s(const Plant& plant) {
 }
 
 /// Rise over run where the weight's part along the slope is this share of it.
-double grade_of(double sine) { return sine < 1 ? std::tan(std::asin(sine)) : kNoLimit; }
+double grade_of(double sine) { return sine < 1 ? std::tan(std::asin(std::max(-1.0, sine))) : kNoLimit; }
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/power.hpp"
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/prediction/nuisance.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/plant.hpp"
 #include "model/text_of_list.hpp"
@@ -132,25 +133,31 @@ bool is_seen(const EnergyGap& measured) {
          measured.before_percent > 100 * kMaterialEnergy;
 }
 
-/// "wheel friction left is 2.1 standard deviations off": the constant that covers a gap by the largest part
-/// of its uncertainty.
-std::string covering_constant(const Examination& x) {
+/// " (friction_torque_Nm (left) is 2.1 standard deviations off)": the constant of the robot file that the fit
+/// moves by the largest part of its uncertainty; empty where the file states none.
+std::string largest_error(const Examination& x) {
   const Equations& equations = x.id.equations;
-  const std::vector<int> constants = equations.columns_of(Column::Kind::nuisance);
+  std::vector<int> constants = equations.columns_of(Column::Kind::nuisance);
+  std::erase_if(constants, [&](int column) {
+    const int owner = equations.columns[static_cast<std::size_t>(column)].owner;
+    return !is_factor(x.id.nuisances[static_cast<std::size_t>(owner)]);
+  });
+  if (constants.empty()) return "";
   const Eigen::VectorXd value = fit_parameters(equations, every(equations.runs.size()), {}, x.id.dispersion);
   const auto sigmas = [&](int column) { return std::abs(value[column]) / equations.prior_sd[column]; };
   const int most = *std::ranges::max_element(constants, {}, sigmas);
   char text[64];
-  std::snprintf(text, sizeof text, " is %.1f standard deviations off", sigmas(most));
-  return calibration_name(x.id, most) + text;
+  std::snprintf(text, sizeof text, " is %.1f standard deviations off)", sigmas(most));
+  return " (" + calibration_name(x.id, most) + text;
 }
 
 /// What the runs show without a cause: "no gap is seen", or what covers the one that is.
-std::string gap_in_words(const Examination& x, const EnergyGap& measured) {
+std::string gap_in_words(const Examination& x, const EnergyGap& measured,
+                         const std::vector<SmallEffect>& listed) {
   if (!is_seen(measured)) return "no gap is seen";
-  return "the gap of " + size_text(measured.before_percent) +
-         " of the energy lies within the uncertainty of the robot file's constants (" + covering_constant(x) +
-         ")";
+  const std::string gap = "the gap of " + size_text(measured.before_percent) + " of the energy ";
+  if (!listed.empty()) return gap + "has no cause of material size";
+  return gap + "lies within the uncertainty of the robot file's constants" + largest_error(x);
 }
 
 std::string hidden_words(const std::string& gap, const std::string& hidden) {
@@ -175,7 +182,7 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
             .hard_to_see = hard,
-            .note = hidden_words(gap_in_words(x, measured), size_text(percent) + " of the energy")};
+            .note = hidden_words(gap_in_words(x, measured, listed), size_text(percent) + " of the energy")};
   std::vector<std::string> hidden;
   for (const HardToSee& one : hard)
     if (one.detectable_percent > kGreatestUnseen_percent) hidden.push_back(one.effect);
@@ -183,8 +190,9 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,
             .hard_to_see = hard,
-            .note = hidden_words(gap_in_words(x, measured), size_text(kGreatestUnseen_percent) +
-                                                                " of the energy by " + text_of_list(hidden))};
+            .note = hidden_words(
+                gap_in_words(x, measured, listed),
+                size_text(kGreatestUnseen_percent) + " of the energy by " + text_of_list(hidden))};
   return {.verdict = verdict,
           .detectable_percent = percent,
           .hard_to_see = hard,
@@ -192,7 +200,7 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
                   size_text(std::max({percent, 100 * kMaterialEnergy, measured.before_percent})) +
                   " of the energy (" + std::to_string(std::lround(100 * kShareSeen)) +
                   " % of such gaps would have been seen)" + hard_words(hard) +
-                  (is_seen(measured) ? "; " + gap_in_words(x, measured) : "")};
+                  (is_seen(measured) ? "; " + gap_in_words(x, measured, listed) : "")};
 }
 
 }  // namespace joulepath

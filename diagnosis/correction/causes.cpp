@@ -34,12 +34,12 @@ Causes report_causes(const Examination& x, const Names& names, const Validation&
                 .parameters = found_parameters(v.fitted, e, x.dataset.robot),
                 .energy_share = impact_sum > 0 ? impacts[e] / impact_sum : 0.0,
                 .shrink_fraction_alone = shrink_alone(x, effect, gap.before_J)};
-    if (const auto found = names.stand_ins.find(label); found != names.stand_ins.end()) {
+    if (const auto found = names.stand_ins.find(label); found != names.stand_ins.end())
       cause.indistinguishable_from = found->second;
-      if (report.pinned_combination.empty())
-        report.pinned_combination = pinned_combination(x.id.problem, x.id.equations, x.best(), label,
-                                                       found->second.front(), x.id.dispersion);
-    }
+    if (const auto found = names.inseparable.find(label);
+        found != names.inseparable.end() && report.pinned_combination.empty())
+      report.pinned_combination =
+          pinned_combination(x.id.problem, x.id.equations, x.best(), label, found->second, x.id.dispersion);
     report.causes.push_back(std::move(cause));
   }
   if (!report.causes.empty()) report.correlations = parameter_correlations(v.fitted, x.id.nuisances);

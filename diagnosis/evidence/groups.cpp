@@ -153,9 +153,20 @@ std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& eq
   return found;
 }
 
+double likelihood_over_named(const StandIn& other) {
+  return std::exp(-0.5 * kScoreFlattening * std::max(0.0, other.loss_more));
+}
+
 std::vector<StandIn> likely_rivals(const Equations& equations, const std::vector<Explanation>& explanations,
-                                   int candidate, const Inclusion& inclusion, std::set<std::string> group) {
-  const double own = inclusion.of(equations.candidates[static_cast<std::size_t>(candidate)].label());
+                                   int candidate, const Inclusion& inclusion,
+                                   const std::vector<StandIn>& stand_ins) {
+  std::set<std::string> group{equations.candidates[static_cast<std::size_t>(candidate)].label()};
+  double weight = 1;
+  for (const StandIn& other : stand_ins) {
+    group.insert(other.label);
+    weight += likelihood_over_named(other);
+  }
+  const double own = inclusion.of_any(group) / weight;
   std::vector<StandIn> rivals;
   for_each_rival(equations, explanations, candidate, [&](const Explanation&, const std::string& label) {
     if (group.contains(label) || inclusion.of(label) <= 0 ||
@@ -164,6 +175,7 @@ std::vector<StandIn> likely_rivals(const Equations& equations, const std::vector
     rivals.push_back({label, 2 / kScoreFlattening * std::log(own / inclusion.of(label))});
   });
   std::ranges::stable_sort(rivals, std::ranges::less{}, &StandIn::loss_more);
+  rivals.resize(std::min(rivals.size(), kMostLikelyRivals));
   std::size_t taken = 0;
   while (inclusion.of_any(group) < kLeastProbabilityNamed && taken < rivals.size())
     group.insert(rivals[taken++].label);

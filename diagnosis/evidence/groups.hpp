@@ -42,6 +42,10 @@ struct StandIn {
   double loss_more{};  ///< of the data, beyond the named effect's: -2 log of the likelihood ratio
 };
 
+/// Likelihood of a stand-in over that of the named effect. One that fits better as the textbook has it is no
+/// likelier than the one named, which won with inexact forms.
+[[nodiscard]] double likelihood_over_named(const StandIn& other);
+
 /// Effects that could replace one effect of the best explanation with nearly the same likelihood, whatever
 /// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without their forms,
 /// which would favor the best explanation.
@@ -49,11 +53,13 @@ struct StandIn {
                                              const std::vector<Explanation>& explanations, int candidate,
                                              double dispersion, const Robot& robot);
 
-/// Effects in the place of one of the best explanation, the likeliest first, until the group is as likely as
-/// a name must be; none where it never is. Runs that favour one law or another by turns are ambiguous.
+/// Up to kMostLikelyRivals effects in the place of one of the best explanation, the likeliest first, until
+/// they, the effect and its stand-ins together are as likely as a name must be; none where they never are.
+/// Runs that favour one law or another by turns are ambiguous.
 [[nodiscard]] std::vector<StandIn> likely_rivals(const Equations& equations,
                                                  const std::vector<Explanation>& explanations, int candidate,
-                                                 const Inclusion& inclusion, std::set<std::string> group);
+                                                 const Inclusion& inclusion,
+                                                 const std::vector<StandIn>& stand_ins);
 
 /// The combination of two candidates' amplitudes that the data determine, neither alone: "a + k b = c".
 [[nodiscard]] std::string pinned_combination(const LinearProblem& problem, const Equations& equations,

@@ -114,16 +114,17 @@ bool is_settled(const Identification& id) {
   return labels_of(id.equations, id.explanations.front()) == labels_of(id.state);
 }
 
-/// Takes the best set over and searches about it again, until the set stays.
-void converge(const LogSet& logs, const std::set<std::string>& without, std::map<std::string, double>& known,
+/// Takes the best set over and searches about it again, until the set stays. Returns whether it does.
+bool converge(const LogSet& logs, const std::set<std::string>& without, std::map<std::string, double>& known,
               Identification& id) {
   for (int round = 0; round < kRelinearizations; ++round) {
     adopt_best(logs, id);
     const NoiseModel noise = id.equations.noise;
     search_about_state(logs, without, &noise, kMostMembers, known, id);
-    if (is_settled(id)) return;
+    if (is_settled(id)) return true;
   }
   adopt_best(logs, id);  // the last answer, refitted
+  return false;
 }
 
 /// The best single law, first of all sets. Returns whether there is one.
@@ -145,11 +146,12 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
   const bool battery_alone = sees_battery_alone(id.signals);
   search_about_state(logs, without, nullptr, battery_alone ? 1 : kMostMembers, known, id);
   Identification about_law = id;
-  const bool nothing_found = id.explanations.front().candidates.empty() && is_settled(id) && !battery_alone;
-  if (!nothing_found) converge(logs, without, known, id);
+  const bool no_law_found = id.explanations.front().candidates.empty() && is_settled(id) && !battery_alone;
+  if (!no_law_found) converge(logs, without, known, id);
   if (id.explanations.front().unknowns.empty() || !prefer_single_law(about_law.explanations)) return id;
-  converge(logs, without, known, about_law);
-  return about_law.explanations.front().unknowns.empty() ? about_law : id;
+  const bool settles = converge(logs, without, known, about_law);
+  const Explanation& laws = about_law.explanations.front();
+  return settles && laws.unknowns.empty() && !laws.candidates.empty() ? about_law : id;
 }
 
 std::set<std::string> unknown_labels(const Equations& equations, const Explanation& explanation) {

@@ -16,34 +16,34 @@
 namespace joulepath {
 namespace {
 
-double likelihood_over_named(const StandIn& other) {
-  return std::exp(-0.5 * kScoreFlattening * std::max(0.0, other.loss_more));
-}
-
 /// Effects that the data cannot separate share the probability that one of them is there by their likelihood,
-/// not by their typical size. One that fits better as the textbook has it is no likelier than the one named,
-/// which won with inexact forms.
+/// not by their typical size; those that runs favour by turns by their own. One that two effects could be
+/// keeps its greater share.
 void share_probabilities(const Examination& x, const Inclusion& inclusion, Names& names) {
   const Identification& id = x.id;
+  std::set<std::string> shared;
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
     std::vector<StandIn> others =
         stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion, x.dataset.robot);
+    if (!others.empty()) names.inseparable[label] = others.front().label;
+    std::ranges::copy(likely_rivals(id.equations, id.explanations, c, inclusion, others),
+                      std::back_inserter(others));
+    if (others.empty()) continue;
     double weight = 1;
     std::set<std::string> group{label};
-    for (const StandIn& other : others) group.insert(other.label);
-    std::ranges::copy(likely_rivals(id.equations, id.explanations, c, inclusion, group),
-                      std::back_inserter(others));
     for (const StandIn& other : others) {
       names.stand_ins[label].push_back(other.label);
       group.insert(other.label);
       weight += likelihood_over_named(other);
     }
-    if (others.empty()) continue;
     const double share = inclusion.of_any(group) / weight;
     names.probabilities[label] = share;
-    for (const StandIn& other : others)
-      names.probabilities[other.label] = share * likelihood_over_named(other);
+    for (const StandIn& other : others) {
+      double& probability = names.probabilities[other.label];
+      const double own = share * likelihood_over_named(other);
+      probability = shared.insert(other.label).second ? own : std::max(probability, own);
+    }
   }
 }
 

@@ -7,7 +7,7 @@ namespace joulepath {
 
 /// How large the causes are over the materiality floor.
 struct Sizes {
-  double greatest{};                   ///< of the best set's effects and terms
+  double greatest{};                    ///< of the best set's effects and terms
   std::vector<SmallEffect> of_names{};  ///< what is named, as it is listed where it is no gap
 };
 
@@ -21,7 +21,9 @@ struct Names {
   double something{};  ///< probability that there is any cause that matters, named or not
   double surest{
       1.0};  ///< the greatest probability that is stated: share of correct names on development cases
-  std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
+  /// By label: those that fit about as well, then those that runs favour by turns.
+  std::map<std::string, std::vector<std::string>> stand_ins{};
+  std::map<std::string, std::string> inseparable{};  ///< by label: the one that fits best in its place
 };
 
 /// The best set's effects and unknown terms whose marginal inclusion is high enough to name them.

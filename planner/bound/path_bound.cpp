@@ -20,7 +20,8 @@ constexpr int kMostLines = 4;            ///< that are tried for a leg
 constexpr double kLengthRatio = 1.12;    ///< of the lines that know headings, below the long one
 constexpr double kHeadingGain_J = 0.01;  ///< that counts
 constexpr double kTightBound = 0.9;      ///< of the energy, below which lower prices are tried
-constexpr double kLowerPrice = 0.25, kLeastPrice_W = 1;  ///< of a second, tried after a price
+constexpr double kLowerPrice = 0.25;     ///< of a second, tried after a price; after one below
+constexpr double kLeastPrice_W = 1;      ///< this none
 
 LegEnds ends_of(const LegPlan& leg, const std::optional<double>& start_rad,
                 const std::optional<double>& goal_rad, double cost_J) {
@@ -181,12 +182,12 @@ namespace {
 template <class At>
 PathBound greatest_bound(const Plan& plan, double price_W, double energy_J, const At& bound_at) {
   PathBound best = bound_at(price_W);
-  if (!best.energy_J) return best;
+  if (!best.energy_J || !std::isfinite(price_W)) return best;
   if (!limits_jerk(plan) && *best.energy_J >= kTightBound * energy_J) return best;
   while (price_W > 0) {
     price_W = price_W > kLeastPrice_W ? kLowerPrice * price_W : 0;
     const PathBound found = bound_at(price_W);
-    if (!found.energy_J || *found.energy_J <= *best.energy_J) break;
+    if (!found.energy_J || *found.energy_J < *best.energy_J) break;  // the bound is concave in the price
     best = found;
   }
   return best;

@@ -155,16 +155,16 @@ class Exploration {
       runs_.push_back({std::move(start), std::move(newton), std::move(rough)});
     }
     for (Run& run : runs_) order_.push_back(&run);
-    std::stable_sort(order_.begin(), order_.end(), [](const Run* a, const Run* b) {
-      return std::isfinite(a->solution.cost_J) &&
-             !(b->solution.cost_J <= a->solution.cost_J);  // one that is no number stands last
-    });
   }
 
   /// The solutions that may be the best after so many steps in all, in the order of their cost.
   std::vector<Candidate> found(int most_steps) {
     std::vector<Candidate> found;
     double best_J = kNoLimit, least_J = kNoLimit;
+    std::stable_sort(order_.begin(), order_.end(), [](const Run* a, const Run* b) {
+      return std::isfinite(a->solution.cost_J) &&
+             !(b->solution.cost_J <= a->solution.cost_J);  // one that is no number stands last
+    });
     for (Run* run : order_) {
       if (run->solution.cost_J > kHopeless * least_J) break;
       run->solution = run->newton.run({.most_steps = most_steps, .give_up_J = kGiveUp * best_J});

@@ -86,7 +86,7 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, cons
                        .unit = "m",
                        .message = verdict.message};
   if (verdict.status == RouteStatus::goal_blocked) reason.message += named_at(marks, goal.marks);
-  if (verdict.nearest_reachable_m) {
+  if (verdict.nearest_reachable_m && verdict.status != RouteStatus::start_blocked) {
     const auto [x_m, y_m] = *verdict.nearest_reachable_m;
     reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};
     reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
@@ -138,7 +138,8 @@ void refuse_blocked_start(const MissionRequest& mission, const RouteSpace& space
 void refuse_blocked_goals(const MissionRequest& mission, const RouteSpace& space) {
   const auto check = [&](const std::string& name) {
     if (name.empty()) return;  // of a given path or motion
-    const auto verdict = blocked_ends(space, route_request({.to = name}, {mission.start.pose}, mission, {}));
+    const LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
+    const auto verdict = blocked_ends(space, route_request({.to = name}, start, mission, {}));
     if (!verdict || verdict->status != RouteStatus::goal_blocked) return;
     const ItemMarks& marks = mission.stations.at(name).marks;
     throw ConfigError(

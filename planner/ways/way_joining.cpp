@@ -291,22 +291,24 @@ void RefinedRun::take(std::size_t first, const joint::JointPaths& joined) {
 }
 
 /// The cheapest of the present paths and those of the joint program that keeps every limit; the present ones
-/// where none does. A leg that is joined again is checked then.
-void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
+/// where none does. A leg that is joined again is checked then. Returns whether a path of the program was
+/// taken.
+bool RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
                                const std::array<Starts, 2>& starts, double present_J) {
   struct Candidate {
     double cost_J{};
     std::vector<Part> parts{};
+    bool joined{};
   };
   const std::vector<Part> present = parts_;
   std::vector<Candidate> candidates;
-  if (std::isfinite(present_J)) candidates.push_back({present_J, present});
+  if (std::isfinite(present_J)) candidates.push_back({present_J, present, false});
   for (const Starts& group : starts)
     for (const joint::JointPaths& joined : joint::best_joint_paths(query, group)) {
       parts_ = present;
       take(first, joined);
       if (const double cost_J = driven_J(first, count); std::isfinite(cost_J))
-        candidates.push_back({cost_J, parts_});
+        candidates.push_back({cost_J, parts_, true});
     }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost_J < b.cost_J; });
@@ -315,9 +317,10 @@ void RefinedRun::take_cheapest(std::size_t first, std::size_t count, const joint
     if (!drivable(first, joins_again(first, count) ? count - 1 : count)) continue;
     for (std::size_t k = first; k < first + count; ++k)
       if (parts_[k].refined) parts_[k].driving = driving(k, parts_[k].path);
-    return;
+    return candidate.joined;
   }
   parts_ = present;
+  return false;
 }
 
 /// A limit of zero forbids every curve; the joint program begins and ends at rest.
@@ -328,7 +331,8 @@ bool RefinedRun::may_join(std::size_t k) const {
          limits.lateral_acceleration_m_s2 > 0 && limits.yaw_acceleration_rad_s2 > 0;
 }
 
-void RefinedRun::join(std::size_t first, std::size_t count) {
+/// Returns whether a path of the joint program was taken, or none is needed.
+bool RefinedRun::join(std::size_t first, std::size_t count) {
   joint::JointQuery query{.start = first == 0 ? request_.start : request_.legs[first - 1].goal,
                           .checker = &run_.contexts[first].space->checker()};
   query.start.heading_rad = heading_before(first).value_or(parts_[first].leaves_rad);
@@ -348,7 +352,7 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     bends = bends || !is_straight(from_present.back(), path);
     turning = turning || turns_much(from_present.back(), path);
   }
-  if (!bends && !barred) return;
+  if (!bends && !barred) return true;
   for (std::size_t k = first; k < first + count; ++k) {
     query.laws.push_back(law_of(k, 1));
     query.reverse_laws.push_back(law_of(k, -1));
@@ -371,7 +375,7 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
             along_path(present[k].path, half_track_m, pieces_for(present[k].path), joint::Turns::in_place));
     }
   }
-  take_cheapest(first, count, query, starts, present_J);
+  return take_cheapest(first, count, query, starts, present_J);
 }
 
 bool RefinedRun::barred() const {
@@ -389,11 +393,8 @@ void RefinedRun::join() {
   for (std::size_t first = 0; first < legs;) {
     std::size_t end = first;
     while (end < legs && end < first + kMostTogether && may_join(end)) ++end;
-    if (end > first) join(first, end - first);
-    const auto is_refined = [](const Part& part) { return part.refined; };
-    const auto at = [&](std::size_t k) { return parts_.begin() + static_cast<std::ptrdiff_t>(k); };
-    if (end > first + 1 && std::none_of(at(first), at(end), is_refined))  // each alone, as the others are now
-      for (std::size_t k = first; k < end; ++k) join(k, 1);
+    if (end > first && !join(first, end - first) && end > first + 1)
+      for (std::size_t k = first; k < end; ++k) join(k, 1);  // each alone, as the others are now
     first = joins_again(first, end - first) ? end - 1 : std::max(end, first + 1);
   }
 }

@@ -65,10 +65,10 @@ class RefinedRun {
   double driven_J(std::size_t first, std::size_t count) const;
   bool drivable(std::size_t first, std::size_t count) const;
   void take(std::size_t first, const joint::JointPaths& joined);
-  void take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
+  bool take_cheapest(std::size_t first, std::size_t count, const joint::JointQuery& query,
                      const std::array<Starts, 2>& starts, double present_J);
   bool may_join(std::size_t k) const;
-  void join(std::size_t first, std::size_t count);
+  bool join(std::size_t first, std::size_t count);
   bool joins_again(std::size_t first, std::size_t count) const;
   PathScore as_driven(std::size_t k) const;
 

@@ -157,6 +157,8 @@ EffectSetting parse_effect(const std::string& text) {
   Value parameters, entry;
   parameters.kind = entry.kind = Value::Kind::map;
   for (const auto& [key, value] : named.settings) {
+    if (std::ranges::count(parameters.entries, key, &Value::Entry::key) > 0)
+      refuse("--effect", named.name + "." + key, "it twice", "each parameter once");
     parameters.entries.push_back({.key = key});
     Value& scalar = parameters.entries.back().value;
     scalar.kind = value.empty() ? Value::Kind::null : Value::Kind::scalar;

@@ -416,7 +416,7 @@ TEST(CommandLine, APlanSaysWhyAClassicProfileIsInfeasible) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("trapezoid_max_acceleration: cannot meet the time"), std::string::npos)
       << result.out;
-  EXPECT_EQ(result.out.find("> 0.999"), std::string::npos) << "a blank where a line can be folded";
+  EXPECT_NE(result.out.find(" >0.999"), std::string::npos) << "no blank where a line can be folded";
 }
 
 /// The second curve leaves margins, of the battery too: its fastest drive is later.

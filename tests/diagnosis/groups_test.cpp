@@ -81,14 +81,13 @@ TEST(Group, HoldsTheLawsThatRunsFavourByTurns) {
   Inclusion inclusion;
   inclusion.add(equations, favouring(0), 0.6);
   inclusion.add(equations, favouring(1), 0.4);
-  const std::vector<StandIn> rivals =
-      likely_rivals(equations, favouring(0), 0, inclusion, {"rolling_resistance"});
+  const std::vector<StandIn> rivals = likely_rivals(equations, favouring(0), 0, inclusion, {});
   ASSERT_EQ(rivals.size(), 1u);
   EXPECT_EQ(rivals[0].label, "coulomb_friction");
   EXPECT_NEAR(std::exp(-0.5 * kScoreFlattening * rivals[0].loss_more), 0.4 / 0.6, 1e-9);
   Inclusion sure;
   sure.add(equations, favouring(0));
-  EXPECT_TRUE(likely_rivals(equations, favouring(0), 0, sure, {"rolling_resistance"}).empty());
+  EXPECT_TRUE(likely_rivals(equations, favouring(0), 0, sure, {}).empty());
 }
 
 /// Rolling resistance beside a slope, which the runs cannot tell from Coulomb friction, is no unknown cause.

@@ -123,7 +123,8 @@ std::optional<RouteVerdict> blocked_end(const RouteSpace& space, const RouteEnd&
       told_of_the_map(blocked(end.blocked, what.c_str(), *collision), space.field(), end.name);
   verdict.nearest_reachable_m = nearest_standing(space, end, other);
   if (verdict.nearest_reachable_m)
-    verdict.message += "; it fits at " + place_text(*verdict.nearest_reachable_m, end.pose.x_m, end.pose.y_m);
+    verdict.message +=
+        "; the robot can stand at " + place_text(*verdict.nearest_reachable_m, end.pose.x_m, end.pose.y_m);
   return verdict;
 }
 

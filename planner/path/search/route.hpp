@@ -88,7 +88,8 @@ struct RouteVerdict {
   double y_m{};
   double short_by_m{};  ///< missing clearance, where that applies
   bool keepout{};       ///< the obstruction belongs to the keep-out mask, not to the map
-  std::optional<Point2> nearest_reachable_m{};  ///< nearest place that would do, where that applies
+  std::optional<Point2>
+      nearest_reachable_m{};  ///< nearest place to stand at, or to reach, where that applies
   std::string message{};
 };
 
