@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "scenarios/any_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
@@ -75,10 +76,11 @@ TEST(WorldNotes, ARobotsImplausibleConstantIsToldOfItsFile) {
   EXPECT_EQ(world_notes(mission, world).front().rfind(mission.robot_file + ": power.standby_W", 0), 0u);
 }
 
+/// Those that the core reads.
 TEST(WorldNotes, TheShippedMissionsHaveNone) {
-  for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/missions")) {
-    const MissionRequest mission = read_mission(entry.path().string());
-    EXPECT_EQ(world_notes(mission, read_world(mission)), std::vector<std::string>{}) << entry.path();
+  for (const std::string name : {"depot_round", "warehouse_pick"}) {
+    const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/" + name + ".yaml");
+    EXPECT_EQ(world_notes(mission, read_world(mission)), std::vector<std::string>{}) << name;
   }
 }
 
