@@ -74,7 +74,10 @@ std::vector<std::string> world_notes(const MissionRequest& mission, const Missio
                                      const ReadOptions& options) {
   WorldNotes notes;
   const auto of_file = [&](const std::string& file, const WorldNotes& told) {
-    for (const std::string& note : told) notes.push_back((file.empty() ? "" : file + ": ") + note);
+    for (const std::string& note : told) {
+      notes.push_back(file.empty() ? "" : file + ": ");
+      notes.back() += note;
+    }
   };
   of_file(mission.robot_file, robot_notes(world.robot));
   if (world.map) of_file(mission.map_file, map_doubts(mission.map_file, options));
