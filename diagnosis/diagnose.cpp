@@ -329,9 +329,7 @@ std::vector<DataCheck> faults_of_robot(const Dataset& dataset, const RunsByUse& 
 /// A gap of the simulator that no cause explains and that calibration errors would explain is still one: a
 /// simulator's constants are what its user set.
 void judge_simulator(Diagnosis& d) {
-  if (d.verdict != Verdict::no_gap || d.gap.energy.before_percent <= 2 * d.gap.energy.noise_floor_percent ||
-      d.gap.energy.before_percent <= 100 * kMaterialEnergy)
-    return;
+  if (d.verdict != Verdict::no_gap || !is_seen(d.gap.energy)) return;
   d.verdict = Verdict::unexplained;
   d.leftover_significant = true;
   d.leftover_description = "goes with constants within their uncertainty in the robot file";

@@ -126,13 +126,6 @@ std::string hard_words(const std::vector<HardToSee>& hard) {
                              text_of_list(words);
 }
 
-/// Whether the model as it is written misses the measured energy: constants within their uncertainty may
-/// cover a gap that the runs do show.
-bool is_seen(const EnergyGap& measured) {
-  return measured.before_percent > 2 * measured.noise_floor_percent &&
-         measured.before_percent > 100 * kMaterialEnergy;
-}
-
 /// " (friction_torque_Nm (left) is 2.1 standard deviations off)": the constant of the robot file that the fit
 /// moves by the largest part of its uncertainty; empty where the file states none.
 std::string largest_error(const Examination& x) {
@@ -166,6 +159,11 @@ std::string hidden_words(const std::string& gap, const std::string& hidden) {
 }
 
 }  // namespace
+
+bool is_seen(const EnergyGap& measured) {
+  return measured.before_percent > 2 * measured.noise_floor_percent &&
+         measured.before_percent > 100 * kMaterialEnergy;
+}
 
 AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured,
                            const std::vector<SmallEffect>& listed) {

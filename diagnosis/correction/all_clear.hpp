@@ -19,6 +19,10 @@ struct AllClear {
   std::string note{};
 };
 
+/// Whether the model as it is written misses the measured energy by more than noise and by a share that
+/// matters. Constants within their uncertainty may cover such a gap.
+[[nodiscard]] bool is_seen(const EnergyGap& measured);
+
 /// `listed`: effects that the runs show, too small to count.
 [[nodiscard]] AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured,
                                          const std::vector<SmallEffect>& listed = {});

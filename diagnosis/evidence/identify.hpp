@@ -26,7 +26,7 @@ struct Identification {
 /// Searches for the effects behind a gap: linearize, weigh sets of effects, take the best over, refit by
 /// Gauss-Newton, and linearize again about it until the set stays the same. About the nominal model a curve
 /// of an unknown cause bends where a strong law cannot: before a curve is the answer, the best single law
-/// gets the same rounds, and is the answer if no unknown term is left beside what it leads to. `without`:
+/// gets the same rounds, and what it leads to is the answer if they settle on laws alone. `without`:
 /// effects that the catalog is taken to lack.
 [[nodiscard]] Identification identify(const LogSet& logs, const std::set<std::string>& without = {});
 

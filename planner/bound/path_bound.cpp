@@ -20,8 +20,8 @@ constexpr int kMostLines = 4;            ///< that are tried for a leg
 constexpr double kLengthRatio = 1.12;    ///< of the lines that know headings, below the long one
 constexpr double kHeadingGain_J = 0.01;  ///< that counts
 constexpr double kTightBound = 0.9;      ///< of the energy, below which lower prices are tried
-constexpr double kLowerPrice = 0.25;     ///< of a second, tried after a price; after one below
-constexpr double kLeastPrice_W = 1;      ///< this none
+constexpr double kLowerPrice = 0.25;     ///< of a price of a second, which is tried next
+constexpr double kLeastPrice_W = 1;      ///< after a lower price of a second, 0 is tried
 
 LegEnds ends_of(const LegPlan& leg, const std::optional<double>& start_rad,
                 const std::optional<double>& goal_rad, double cost_J) {
