@@ -40,18 +40,12 @@ bool have_several_ways(const std::vector<FrontPoint>& points) {
   return std::any_of(points.begin(), points.end(), [](const FrontPoint& point) { return point.drive > 0; });
 }
 
-/// The plan whose ways a point's drive follows, in the order of MissionFront::plans.
-const char* ways_of(const FrontPoint& point) {
-  constexpr const char* kWays[] = {"least_energy", "least_time", "between"};
-  return kWays[point.drive];
-}
-
 /// Points tell their ways where these are several.
 nlohmann::json points_json(const std::vector<FrontPoint>& points, double accuracy) {
   nlohmann::json result = nlohmann::json::array();
   for (const FrontPoint& point : points) {
     result.push_back(point_json(point, accuracy));
-    if (have_several_ways(points)) result.back()["ways"] = ways_of(point);
+    if (have_several_ways(points)) result.back()["ways"] = point.ways;
   }
   return result;
 }
@@ -90,7 +84,7 @@ class FrontCommand : public Command {
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
     expect_steps(points_ + std::min(points_, baseline_points_));
-    const auto [plans, front] = mission_front(mission, world, options_.plan, points_, open);
+    const auto [plans, names, front] = mission_front(mission, world, options_.plan, points_, open);
     const Plan& plan = plans.front();
     if (!is_driven(plan)) {
       std::cerr << "no front: " << plan.message << "\n";
@@ -265,7 +259,7 @@ class FrontCommand : public Command {
           figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
           std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
           solve_status_name(point.status(options_.plan.accuracy))};
-      if (several) row.push_back(ways_of(point));
+      if (several) row.push_back(point.ways);
       table.row(row);
     }
     table.print(std::cout);

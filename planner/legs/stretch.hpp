@@ -16,6 +16,9 @@ struct WaySteps {
   bool routes{true};      ///< else the shortest route
   bool stops{true};       ///< else the robot turns on the spot at stops
   bool refinement{true};  ///< path and speed together; else corners stay as they were blended
+  /// Path and speed together within the mean acceleration of a ramp under the jerk limit, which that program
+  /// leaves out otherwise.
+  bool mean_ramps{};
 };
 
 /// The share of a limit that a plan may use, by the limit's name: the rest is its margin.

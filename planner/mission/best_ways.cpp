@@ -51,12 +51,13 @@ class WayTrials {
 
   Plan best() {
     const double first_W = first_price_W(mission(), request_.world, request_.plant);
-    take(first_W);
+    take({first_W});
     const std::vector<LegRequest>& legs = mission().legs;
     if (!request_.searched || std::none_of(legs.begin(), legs.end(), searches)) return answer();
     if (!best_ || ends_late() || !pays(*best_, mission(), first_W)) try_prices_of_times();
     if (minimizes_time(mission()) || ends_late()) try_least_energy(first_W);
     try_less_haste(first_W);
+    if (has_jerk_limit()) try_mean_ramps(first_W);
     if (ends_late()) try_more_haste();
     return answer();
   }
@@ -64,6 +65,10 @@ class WayTrials {
  private:
   const MissionRequest& mission() const { return request_.mission; }
   bool ends_late() const { return best_ && best_->infeasibility && is_late(best_->infeasibility->reason); }
+  bool has_jerk_limit() const {
+    const std::optional<Limits>& limits = request_.world.robot.limits;
+    return limits && std::isfinite(limits->jerk_m_s3);
+  }
   bool has_drive() const { return best_ && is_driven(*best_); }
 
   Plan answer() {
@@ -71,9 +76,9 @@ class WayTrials {
     return *std::move(best_);
   }
 
-  void take(std::optional<double> way_price_W) {
+  void take(const WayChoice& choice) {
     try {
-      Plan other = plan_it_(mission(), way_price_W);
+      Plan other = plan_it_(mission(), choice);
       if (!best_ || is_better(other)) best_ = std::move(other);
     } catch (const ConfigError&) {
       if (!refused_) refused_ = std::current_exception();
@@ -93,42 +98,49 @@ class WayTrials {
   void try_prices_of_times() {
     take({});
     const double middle_W = has_drive() ? middle_price_W(*best_) : 0;
-    if (middle_W > 0) take(middle_W);
+    if (middle_W > 0) take({middle_W});
     const auto is_high = [&](double price_W) { return price_W > middle_W; };
     const std::vector<double> price_W =
         has_drive() ? searched_prices_W(*best_, mission()) : std::vector<double>{};
     const bool hurries = ends_late() || std::any_of(price_W.begin(), price_W.end(), is_high);
-    if (!minimizes_time(mission()) && hurries) take(kNoLimit);
+    if (!minimizes_time(mission()) && hurries) take({kNoLimit});
+  }
+
+  double least_energy_price_W() const {
+    MissionRequest cheapest = mission();
+    cheapest.objective.minimize = Objective::Minimize::energy;
+    return first_price_W(cheapest, request_.world, request_.plant);
   }
 
   void try_least_energy(double first_W) {
-    MissionRequest cheapest = mission();
-    cheapest.objective.minimize = Objective::Minimize::energy;
-    if (const double price_W = first_price_W(cheapest, request_.world, request_.plant); price_W != first_W)
-      take(price_W);
+    if (const double price_W = least_energy_price_W(); price_W != first_W) take({price_W});
+  }
+
+  /// The joint program leaves the jerk limit out: its ways suit ramps that are steeper than any drive's.
+  void try_mean_ramps(double first_W) {
+    take({first_W, true});
+    if (const double price_W = least_energy_price_W(); price_W != first_W) take({price_W, true});
   }
 
   /// The joint program converges worse in the greatest haste, and it knows no limit of jerk.
   void try_less_haste(double first_W) {
-    const std::optional<Limits>& limits = request_.world.robot.limits;
-    const bool jerky = limits && std::isfinite(limits->jerk_m_s3);
-    if (!has_drive() || (!minimizes_time(mission()) && !jerky)) return;
+    if (!has_drive() || (!minimizes_time(mission()) && !has_jerk_limit())) return;
     const double middle_W = middle_price_W(*best_);
     const std::vector<double> calmer_W =
         minimizes_time(mission()) ? std::vector{kHaste * middle_W, middle_W} : std::vector{first_W / kHaste};
     for (const double price_W : calmer_W)
-      if (price_W > 0) take(price_W);
+      if (price_W > 0) take({price_W});
   }
 
   /// The ways of the mission without its deadlines, in its own time and in the least one.
   void try_more_haste() {
     MissionRequest free = without_deadlines(mission());
     const Plan patient = plan_it_(free, {});
-    if (is_driven(patient) && middle_price_W(patient) > 0) take(middle_price_W(patient));
+    if (is_driven(patient) && middle_price_W(patient) > 0) take({middle_price_W(patient)});
     free.objective.minimize = Objective::Minimize::time;
     const Plan hasty = plan_it_(free, {});
     for (const double haste : {kHaste, 1.0})
-      if (is_driven(hasty) && middle_price_W(hasty) > 0) take(haste * middle_price_W(hasty));
+      if (is_driven(hasty) && middle_price_W(hasty) > 0) take({haste * middle_price_W(hasty)});
   }
 
   WaysRequest request_;

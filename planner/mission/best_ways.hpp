@@ -9,9 +9,13 @@
 
 namespace joulepath {
 
-/// Plans a mission on ways that are chosen at a price of time (W); without one, at the prices that its times
-/// lead to.
-using PlanOnWays = std::function<Plan(const MissionRequest& mission, std::optional<double> way_price_W)>;
+/// How ways are chosen.
+struct WayChoice {
+  std::optional<double> price_W{};  ///< of time; without one, the prices that the mission's times lead to
+  bool mean_ramps{};                ///< WaySteps::mean_ramps
+};
+
+using PlanOnWays = std::function<Plan(const MissionRequest& mission, const WayChoice& choice)>;
 
 /// Legs that are given, and what their ways are chosen in.
 struct WaysRequest {
@@ -25,7 +29,8 @@ struct WaysRequest {
 /// deadline that does not bind leaves as they are. Where times raise or lower prices, the ways at those
 /// prices are tried, too, and the others of a front: those between least energy and least time and, at prices
 /// above, those of least time. The least time is tried on those of least energy and of less haste, too: the
-/// joint program tells small differences of time badly.
+/// joint program tells small differences of time badly. Under a jerk limit ways for mean ramps are tried,
+/// too.
 ///
 /// Of two drives the cheaper one is better; of two verdicts one that is not late, then the one that misses
 /// the same limit by less. A choice whose plan the mission's keys refuse (ConfigError) counts only where no

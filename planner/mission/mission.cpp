@@ -272,8 +272,11 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
                      const RouteSpace* space, const Plant& plant, const Plan& known) {
   const auto plan_on = [&](const MissionRequest& legs, const PlanOptions& how) {
     return plan_on_best_ways({.mission = legs, .world = world, .plant = plant, .searched = space != nullptr},
-                             [&](const MissionRequest& variant, std::optional<double> way_price_W) {
-                               return plan_given_legs(variant, world, how, space, plant, known, way_price_W);
+                             [&](const MissionRequest& variant, const WayChoice& choice) {
+                               PlanOptions chosen = how;
+                               chosen.steps.mean_ramps = choice.mean_ramps;
+                               return plan_given_legs(variant, world, chosen, space, plant, known,
+                                                      choice.price_W);
                              });
   };
   const auto plan_legs = [&](const MissionRequest& legs) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/values/profile_request.hpp"
@@ -24,6 +25,7 @@ struct FrontPoint {
   double gap_s{};  ///< no profiles take less time by more, for the least time
   std::vector<double> stretch_s{};  ///< duration of each stretch
   std::size_t drive{};              ///< index of its drive, of several
+  std::string ways{};               ///< name of the plan whose paths it drives, of several
 
   /// (value - lower bound)/value, of energy or of the least time.
   [[nodiscard]] double gap_percent() const;

@@ -52,8 +52,8 @@ void each_field(Archive& archive, PayloadAlongLeg& value) {
 
 template <class Archive>
 void each_field(Archive& archive, WaySteps& value) {
-  auto& [corners, routes, stops, refinement] = value;
-  archive(corners, routes, stops, refinement);
+  auto& [corners, routes, stops, refinement, mean_ramps] = value;
+  archive(corners, routes, stops, refinement, mean_ramps);
 }
 
 /// Everything on which the way of a leg between two stations depends, except its neighbors.

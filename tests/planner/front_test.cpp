@@ -100,7 +100,7 @@ TEST(Front, IsTheLowestOfThePlansOnItsWays) {
   PlanOptions finer = kFrontPlan;
   finer.nodes = 120;
   for (const FrontCase& made : {through_gaps(), on_two_legs()}) {
-    const auto [plans, front] = mission_front(made.mission, made.world, finer, 24, false);
+    const auto [plans, names, front] = mission_front(made.mission, made.world, finer, 24, false);
     ASSERT_EQ(plans.size(), 3u);
     for (std::size_t k = 1; k < front.points.size(); ++k) {
       EXPECT_GT(front.points[k].duration_s, front.points[k - 1].duration_s);
@@ -120,10 +120,35 @@ TEST(Front, IsTheLowestOfThePlansOnItsWays) {
   }
 }
 
+/// Ways are shaped without the jerk limit. Still no front is faster than the plan of least time, and a price
+/// of time lowers no energy.
+TEST(Front, UnderAJerkLimitIsNeitherFasterNorCheaperThanThePlans) {
+  FrontCase made = on_open_floor({6.15, 3.25, 3.1416}, 4.775, 2.594);
+  made.mission.stations["goal"].heading_rad = -0.345;
+  made.mission.legs.front().dwell_s = 0;
+  for (const double jerk_m_s3 : {0.3, 0.6}) {
+    made.world.robot.limits->jerk_m_s3 = jerk_m_s3;
+    const auto planned = [&](const Objective& objective) {
+      MissionRequest mission = made.mission;
+      mission.objective = objective;
+      return plan_mission(mission, made.world, kFrontPlan);
+    };
+    const double fastest_s = planned({.minimize = Objective::Minimize::time}).duration_s;
+    const double cheapest_J = planned({}).energy.total_J();
+    EXPECT_GE(mission_front(made.mission, made.world, kFrontPlan, 4, false).front.points.front().duration_s,
+              0.999 * fastest_s);
+    for (const double value_W : {10.0, 100.0})
+      EXPECT_GE(planned({.minimize = Objective::Minimize::energy_and_time, .time_value_W = value_W})
+                    .energy.total_J(),
+                0.997 * cheapest_J)
+          << jerk_m_s3 << ", " << value_W;
+  }
+}
+
 /// The straight line is the way of all plans.
 TEST(Front, OnOneWayIsThatOfItsPlan) {
   const FrontCase made = on_open_floor({3, 3, 0}, 8, 3);
-  const auto [plans, front] = mission_front(made.mission, made.world, kFrontPlan, 6, false);
+  const auto [plans, names, front] = mission_front(made.mission, made.world, kFrontPlan, 6, false);
   EXPECT_EQ(plans.size(), 1u);
   const Front alone = energy_time_front(planned_stretches(plans.front()), 6);
   ASSERT_EQ(front.points.size(), alone.points.size());
