@@ -132,6 +132,15 @@ class Scorer(unittest.TestCase):
         self.assertFalse(judge.invents_a_cause(said("explained", "a"), day))
         self.assertEqual(self.value([(label("null"), suspect()), (label("null"), said("no_gap"))], "sound day called"), 0.5)
 
+    def test_an_explained_correction_is_quiet_when_it_is_diagnosed_again(self):
+        day = lambda verdict, again: {"diagnosis": {"verdict": verdict},
+                                      "fresh_day": {"again": {"verdict": again, "causes": [{"effect": "coulomb_friction"}]}}}
+        results = {"x": day("explained", "no_gap"), "y": day("explained", "explained"), "z": day("partly_explained", "no_gap"),
+                   "u": {"diagnosis": {"verdict": "no_gap"}, "fresh_day": None}}
+        whole, every, named = scorecard.again_rates(results)
+        self.assertEqual((whole.hits, whole.total, every.hits, every.total), (1, 2, 2, 3))
+        self.assertEqual((named.hits, named.total), (1, 2))
+
     def test_a_correction_is_judged_on_a_fresh_day_and_may_lose_a_fifth_of_a_percent(self):
         day = lambda after: {"before_percent": 5.0, "after_percent": after}
         self.assertEqual([judge.correction_is_worse(d) for d in (day(1.0), day(5.1), day(5.3), None)], [False, False, True, None])

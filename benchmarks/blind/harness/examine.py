@@ -105,7 +105,8 @@ class Examination:
         return found
 
     def fresh_day(self, out):
-        """The energy gap on a day of 24 runs that nobody saw, with the robot file as it was and as corrected."""
+        """The energy gap on a day of 24 runs that nobody saw, with the robot file as it was and as corrected; and
+        what a diagnosis of that day says of the corrected file."""
         robot = out / "robot_corrected.yaml"
         if not robot.exists() or (out / "dataset_corrected.yaml").exists():
             return None
@@ -118,7 +119,10 @@ class Examination:
             dataset.write_text(text.replace("robot: robot.yaml", f"robot: {file}"))
             gap = self.diagnose(dataset, self.scratch / "fresh" / name).get("diagnosis", {}).get("gap", {}).get("energy", {})
             found |= {f"{name}_J": gap.get("before_J"), f"{name}_percent": gap.get("before_percent")}
-        return found
+        dataset = data / "again.yaml"
+        dataset.write_text((data / "dataset.yaml").read_text().replace("robot: robot.yaml", f"robot: {robot}"))
+        again = self.diagnose(dataset, self.scratch / "fresh" / "again").get("diagnosis", {})
+        return found | {"again": {key: again.get(key) for key in ("verdict", "causes", "unknowns")}}
 
     def controls(self, data):
         answer = self.scratch / "controls.json"

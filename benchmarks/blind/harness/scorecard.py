@@ -190,6 +190,18 @@ def next_run_rates(labels, results):
             Rate("a random next run settles the group (control)", outcomes["random"], None, None)]
 
 
+def again_rates(results):
+    """A correction applied, and the corrected file diagnosed on another day."""
+    told = [(result["diagnosis"]["verdict"], result["fresh_day"]["again"]) for result in results.values()
+            if (result.get("fresh_day") or {}).get("again") and result.get("diagnosis")]
+    quiet = lambda entries: [judge.Answer(again).verdict == "no_gap" for _, again in entries]
+    whole = [(verdict, again) for verdict, again in told if verdict == "explained"]
+    return [Rate("explained, corrected, diagnosed again on another day: no_gap", quiet(whole), 0.99, 0.96),
+            Rate("any verdict, corrected, diagnosed again: no_gap", quiet(told), None, None),
+            Rate("explained, corrected, diagnosed again: a name", [judge.Answer(again).gives_a_name for _, again in whole],
+                 None, None)]
+
+
 def shrink_values(labels, results):
     """The shrink that was said (fraction and interval) against that on a day that nobody saw."""
     covered, errors = [], []
