@@ -80,6 +80,13 @@ void limit_by_battery(Limits& limits, const Battery& battery) {
   limits.charge_power_W = std::min(limits.charge_power_W, most_charge_power_W(battery));
 }
 
+// With a ramp of t the peak is j t^2 / 4, and both ramps together are peak t long.
+double mean_ramp_m_s2(double length_m, const Limits& limits) {
+  const double peak_m_s =
+      std::min(limits.speed_m_s, std::cbrt(0.25 * limits.jerk_m_s3 * length_m * length_m));
+  return 0.5 * std::sqrt(peak_m_s * limits.jerk_m_s3);
+}
+
 bool may_reverse(const Robot& robot, const LegRequest& leg) {
   return leg.direction != LegDirection::forward &&
          std::isfinite(limits_along(robot, leg.payload).reverse_speed_m_s);

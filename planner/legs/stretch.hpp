@@ -47,6 +47,10 @@ struct PlanOptions {
 /// with the battery's own greatest power.
 [[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
 
+/// Mean acceleration (m/s^2) of a ramp between rest and the peak speed of a path of this length, at full
+/// jerk.
+[[nodiscard]] double mean_ramp_m_s2(double length_m, const Limits& limits);
+
 /// What of these limits depends on the battery, for another one: the least of both.
 void limit_by_battery(Limits& limits, const Battery& battery);
 

@@ -57,7 +57,7 @@ class WayTrials {
     if (!best_ || ends_late() || !pays(*best_, mission(), first_W)) try_prices_of_times();
     if (minimizes_time(mission()) || ends_late()) try_least_energy(first_W);
     try_less_haste(first_W);
-    if (has_jerk_limit()) try_mean_ramps(first_W);
+    if (has_jerk_limit() && ramps_bind()) try_mean_ramps(first_W);
     if (ends_late()) try_more_haste();
     return answer();
   }
@@ -68,6 +68,17 @@ class WayTrials {
   bool has_jerk_limit() const {
     const std::optional<Limits>& limits = request_.world.robot.limits;
     return limits && std::isfinite(limits->jerk_m_s3);
+  }
+  /// Whether the jerk limit keeps the mean acceleration of a leg's ramps below its limits.
+  bool ramps_bind() const {
+    if (!has_drive()) return true;
+    for (std::size_t k = 0; k < best_->legs.size(); ++k) {
+      const Limits limits = limits_along(request_.world.robot, mission().legs[k].payload);
+      const double most_m_s2 = std::max(limits.acceleration_m_s2, limits.deceleration_m_s2);
+      if (searches(mission().legs[k]) && mean_ramp_m_s2(best_->legs[k].distance_m, limits) < most_m_s2)
+        return true;
+    }
+    return false;
   }
   bool has_drive() const { return best_ && is_driven(*best_); }
 

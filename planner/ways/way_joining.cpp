@@ -61,14 +61,6 @@ bool is_tight(const FreeSpace& room, double x_m, double y_m) {
   return !room.field().disc_free(x_m, y_m, room.radius_m() + kTight_m);
 }
 
-/// Mean acceleration (m/s^2) of a ramp between rest and the peak speed of a way, at full jerk: with a ramp of
-/// t the peak is j t^2 / 4, and both ramps together are peak t long.
-double mean_ramp_m_s2(double length_m, const Limits& limits) {
-  const double peak_m_s =
-      std::min(limits.speed_m_s, std::cbrt(0.25 * limits.jerk_m_s3 * length_m * length_m));
-  return 0.5 * std::sqrt(peak_m_s * limits.jerk_m_s3);
-}
-
 bool turns_in_place(const Path& path) {
   return std::any_of(path.pieces.begin(), path.pieces.end(),
                      [](const PathPiece& piece) { return is_turn(piece); });
@@ -91,9 +83,9 @@ joint::DriveLaw RefinedRun::law_of(std::size_t k, int direction) const {
   if (asked.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *asked.yaw_rate_rad_s);
   if (direction < 0) limits.speed_m_s = std::min(limits.speed_m_s, limits.reverse_speed_m_s);
   if (context.options.steps.mean_ramps) {
-    const double mean_m_s2 = mean_ramp_m_s2(parts_[k].path.distance_m(), limits);
-    limits.acceleration_m_s2 = std::min(limits.acceleration_m_s2, mean_m_s2);
-    limits.deceleration_m_s2 = std::min(limits.deceleration_m_s2, mean_m_s2);
+    const double most_m_s2 = mean_ramp_m_s2(parts_[k].path.distance_m(), limits);
+    limits.acceleration_m_s2 = std::min(limits.acceleration_m_s2, most_m_s2);
+    limits.deceleration_m_s2 = std::min(limits.deceleration_m_s2, most_m_s2);
   }
   return joint::drive_law(context.plant, limits, 0.5 * (asked.payload.from_kg + asked.payload.to_kg),
                           parts_[k].path.start(), context.finite_price_W(), direction);
