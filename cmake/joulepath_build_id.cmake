@@ -8,7 +8,7 @@ endforeach()
 foreach(folder app extensions) # what the program's pages hold
   list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.js ${folder}/*.css ${folder}/*.html)
 endforeach()
-list(APPEND JOULEPATH_BUILD_PATTERNS cmake/*.cmake)
+list(APPEND JOULEPATH_BUILD_PATTERNS scenarios/schemas/*.yaml extensions/*/schemas.yaml extensions/simulators/templates/*.xml extensions/bags/*.msg cmake/*.cmake)
 
 if(CMAKE_SCRIPT_MODE_FILE)
   list(TRANSFORM JOULEPATH_BUILD_PATTERNS PREPEND ${ROOT}/)

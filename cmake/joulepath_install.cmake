@@ -58,7 +58,7 @@ file(RELATIVE_PATH PC_TO_PREFIX "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/pr
 configure_file(cmake/joulepath.pc.in joulepath.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/joulepath.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-joulepath_install_files(scenarios ${CMAKE_INSTALL_DATADIR}/joulepath "." "([.][ch]pp|/CMakeLists[.]txt)$")
+joulepath_install_files(scenarios ${CMAKE_INSTALL_DATADIR}/joulepath "." "([.][ch]pp|/CMakeLists[.]txt)$|^scenarios/schemas/")
 install(FILES README.md CHANGELOG.md LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright) # where Debian looks
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

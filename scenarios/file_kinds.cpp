@@ -23,11 +23,11 @@ const std::vector<FileKind>& file_kinds() {
         {"dataset", dataset_schema, "run logs, their sensors, and the mapping of their columns"},
         {"mission", mission_schema, "stops or legs of a robot, with payloads and deadlines"},
         {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
-        {"plan", plan_schema, "result of plan: plan.json"},
-        {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
-        {"after", after_schema, "result of diagnose --after: after.json"},
-        {"edges", edges_schema, "result of export --to edges as JSON"},
-        {"loss", loss_schema, "energy lost by the settings of an export"},
+        {"plan", [] { return result_schema("plan"); }, "result of plan: plan.json"},
+        {"diagnosis", [] { return result_schema("diagnosis"); }, "result of diagnose: diagnosis.json"},
+        {"after", [] { return result_schema("after"); }, "result of diagnose --after: after.json"},
+        {"edges", [] { return result_schema("edges"); }, "result of export --to edges as JSON"},
+        {"loss", [] { return result_schema("loss"); }, "energy lost by the settings of an export"},
     };
     std::ranges::copy(registry().kinds, std::back_inserter(all));
     return all;

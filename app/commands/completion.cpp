@@ -3,8 +3,14 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "scenarios/text/filled.hpp"
 
 namespace joulepath {
+
+namespace embedded {
+extern const std::string_view completion_bash;  // app/commands/completion.bash
+}
+
 namespace {
 
 /// Completion scripts, generated from the commands so that they are always current.
@@ -38,23 +44,7 @@ class Completion : public Command {
       for (const auto& flag : command.flags) flags += (flags.empty() ? "" : " ") + flag;
       cases += "    " + command.name + ") words=\"" + flags + "\" ;;\n";
     }
-    return "_joulepath() {\n"
-           "  local current=${COMP_WORDS[COMP_CWORD]} words\n"
-           "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-           "    COMPREPLY=($(compgen -W \"" +
-           names +
-           " --help --version\" -- \"$current\"))\n"
-           "    return\n"
-           "  fi\n"
-           "  case ${COMP_WORDS[1]} in\n" +
-           cases +
-           "  esac\n"
-           "  case $current in\n"
-           "    -*) COMPREPLY=($(compgen -W \"$words\" -- \"$current\")) ;;\n"
-           "    *) COMPREPLY=($(compgen -f -- \"$current\")) ;;\n"
-           "  esac\n"
-           "}\n"
-           "complete -o filenames -F _joulepath joulepath\n";
+    return filled(embedded::completion_bash, {{"@NAMES@", names}, {"@CASES@", cases}});
   }
 
   static std::string fish() {

@@ -110,7 +110,7 @@ std::string with_compared_logs(const std::string& diagnosis_json, const Dataset&
 ChangedSimulator changed_simulator(const Dataset& dataset, const std::string& first,
                                    const std::string& directory, const ReadOptions& options) {
   const Document document = Document::load(first);
-  check_document(document, "diagnosis", diagnosis_schema());
+  check_document(document, "diagnosis", result_schema("diagnosis"));
   const Node root = document.root();
   if (!root.has("simulator"))
     root.fail_found("no simulator", "a diagnosis of a dataset whose runs have `predicted:`");

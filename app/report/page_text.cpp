@@ -46,29 +46,6 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& values) {
-  std::string out;
-  while (!page.empty()) {
-    const std::size_t at = page.find('@');
-    out += page.substr(0, at);
-    if (at == std::string_view::npos) break;
-    page.remove_prefix(at);
-    bool known = false;
-    for (const auto& [name, value] : values) {
-      if (!page.starts_with(name)) continue;
-      out += value;
-      page.remove_prefix(name.size());
-      known = true;
-      break;
-    }
-    if (known) continue;
-    out += '@';
-    page.remove_prefix(1);
-  }
-  return out;
-}
-
 std::string shielded(std::string_view text) {
   std::string out(text);
   for (std::size_t at = 0; (at = out.find("</script", at)) != std::string::npos; at += 9)

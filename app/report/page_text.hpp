@@ -15,10 +15,6 @@ namespace joulepath::report {
 /// Text of an HTML element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// Replaces every known name between @ signs in one pass; inserted text is not searched again.
-[[nodiscard]] std::string filled(std::string_view page,
-                                 const std::vector<std::pair<std::string_view, std::string>>& values);
-
 /// A JavaScript module of a page: imported by its name; `file` is where it lies in the source tree.
 struct Module {
   std::string_view name{}, file{}, text{};

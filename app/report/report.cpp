@@ -13,6 +13,7 @@
 #include "model/limit_table.hpp"
 #include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
+#include "scenarios/text/filled.hpp"
 
 namespace joulepath::embedded {
 extern const std::string_view page, style;

@@ -9,8 +9,15 @@
 #include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
+
+namespace embedded {
+extern const std::string_view fleet_schemas;
+}
+
 namespace {
 
 constexpr double kDefaultBand_kg = 5.0;
@@ -151,6 +158,19 @@ class FleetReader {
 };
 
 }  // namespace
+
+Schema fleet_schema() {
+  Schema schema = schema_in(embedded::fleet_schemas, "fleet", false);
+  for (Schema::Key& key : mission_schema().keys) {
+    const bool is_needed = key.name == "map" || key.name == "stations";
+    if (!is_needed && key.name != "unknown" && key.name != "keepout" && key.name != "speed_mask" &&
+        key.name != "route_graph" && key.name != "clearance_m")
+      continue;
+    key.required = is_needed;
+    schema.keys.push_back(std::move(key));
+  }
+  return with_physical_bounds(std::move(schema));
+}
 
 Fleet fleet_from(const Document& document, const ReadOptions& options) {
   static const Schema schema = fleet_schema();

@@ -35,8 +35,9 @@ Json leg_json(const LegSettings& settings, const LegPlan& leg, std::size_t index
 }  // namespace
 
 Schema controller_schema() {
-  return open(map({optional("schema", text(), "joulepath/controller/1"), optional("mission", text()),
-                   required("legs", list(settings_schema())), required("loss", open(map(loss_keys())))}));
+  return open(
+      map({optional("schema", text(), "joulepath/controller/1"), optional("mission", text()),
+           required("legs", list(settings_schema())), required("loss", result_schema("loss_of_settings"))}));
 }
 
 Export export_controller(const ExportInput& input) {

@@ -5,6 +5,13 @@
 
 #include "model/number_text.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/text/filled.hpp"
+
+/// The files of extensions/simulators/templates/.
+namespace joulepath::embedded {
+extern const std::string_view mjcf, mjcf_caster, mjcf_wheel, mjcf_motor, urdf, urdf_caster, urdf_wheel, sdf,
+    sdf_caster, sdf_wheel, plugin;
+}  // namespace joulepath::embedded
 
 namespace joulepath {
 namespace {
@@ -15,11 +22,6 @@ constexpr double kTireFriction = 0.9;   ///< where the robot file has no tractio
 constexpr double kCasterSize = 0.3;     ///< of the wheel's radius
 
 std::string number(double value) { return number_text(value); }
-
-/// `<name>value</name>`.
-std::string tag(const std::string& name, const std::string& value) {
-  return "<" + name + ">" + value + "</" + name + ">";
-}
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -75,145 +77,96 @@ ExportedRobot exported(const Robot& robot, double payload_kg) {
   return out;
 }
 
-std::string mjcf_text(const ExportedRobot& robot) {
-  std::string wheels, motors, casters;
-  for (const ExportedWheel& wheel : robot.wheels) {
-    const std::string name = wheel.side;
-    const double K = wheel.motor.torque_per_ampere_Nm_A(), Kv = wheel.motor.volts_per_speed_V_s_rad();
-    wheels += "      <body name=\"" + name + "_wheel\" pos=\"0 " + number(wheel.y_m) + " " +
-              number(wheel.z_m) + "\">\n" + "        <joint name=\"" + name +
-              "\" type=\"hinge\" axis=\"0 1 0\" damping=\"" + number(wheel.motor.viscous_friction_Nm_s_rad) +
-              "\" frictionloss=\"" + number(wheel.motor.friction_torque_Nm) + "\" armature=\"" +
-              number(robot.rotor_kg_m2) + "\" solreffriction=\"0.005 1\"/>\n" +
-              "        <inertial pos=\"0 0 0\" mass=\"" + number(robot.wheel_kg) + "\" diaginertia=\"" +
-              number(robot.across_kg_m2) + " " + number(robot.body_axle_kg_m2) + " " +
-              number(robot.across_kg_m2) + "\"/>\n" + "        <geom type=\"ellipsoid\" size=\"" +
-              number(wheel.radius_m) + " " + number(0.3 * wheel.radius_m) + " " + number(wheel.radius_m) +
-              "\" contype=\"0\" conaffinity=\"1\" priority=\"2\" solref=\"0.006 1\" friction=\"" +
-              number(robot.friction) + " 1e-5 1e-5\"/>\n      </body>\n";
-    std::string range;
-    if (std::isfinite(wheel.motor.max_voltage_V))
-      range = " ctrllimited=\"true\" ctrlrange=\"" + number(-wheel.motor.max_voltage_V) + " " +
-              number(wheel.motor.max_voltage_V) + "\"";
-    motors += "    <general name=\"" + name + "_V\" joint=\"" + name + "\" gaintype=\"fixed\" gainprm=\"" +
-              number(K / wheel.motor.resistance_ohm) + "\" biastype=\"affine\" biasprm=\"0 0 " +
-              number(-K * Kv / wheel.motor.resistance_ohm) + "\"" + range + "/>\n";
-  }
-  for (const double x_m : {robot.caster_m, -robot.caster_m})
-    casters += "      <geom type=\"sphere\" size=\"" + number(robot.caster_radius_m) + "\" pos=\"" +
-               number(x_m) + " 0 " + number(robot.caster_z_m) +
-               "\" contype=\"0\" conaffinity=\"1\" priority=\"1\" condim=\"1\" solref=\"0.006 1\"/>\n";
-  return "<mujoco model=\"" + robot.name +
-         "\">\n  <!-- Controls are voltages of the motors (V). -->\n"
-         "  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
-         "  <option timestep=\"0.002\" integrator=\"implicitfast\" cone=\"elliptic\" impratio=\"100\" "
-         "gravity=\"0 0 " +
-         number(-kGravity_m_s2) + "\"/>\n" +
-         "  <worldbody>\n    <geom name=\"floor\" type=\"plane\" size=\"500 500 1\" contype=\"1\" "
-         "conaffinity=\"0\"/>\n" +
-         "    <body name=\"base_link\" pos=\"0 0 " + number(robot.radius_m) + "\">\n      <freejoint/>\n" +
-         "      <inertial pos=\"" + number(robot.center_m) + " 0 0\" mass=\"" + number(robot.mass_kg) +
-         "\" diaginertia=\"" + number(robot.yaw_kg_m2) + " " + number(robot.yaw_kg_m2) + " " +
-         number(robot.yaw_kg_m2) + "\"/>\n" + casters + wheels +
-         "    </body>\n  </worldbody>\n  <actuator>\n" + motors + "  </actuator>\n</mujoco>\n";
+/// The text of one format, of its parts.
+struct Templates {
+  std::string_view model, caster, wheel, motor;
+};
+
+Templates templates_of(const std::string& format) {
+  using namespace embedded;
+  if (format == "mjcf") return {mjcf, mjcf_caster, mjcf_wheel, mjcf_motor};
+  if (format == "urdf") return {urdf, urdf_caster, urdf_wheel, {}};
+  return {sdf, sdf_caster, sdf_wheel, {}};
 }
 
-/// The drive plugin of Gazebo, the same text in a URDF and in an SDF.
-std::string plugin_text(const ExportedRobot& robot) {
-  std::string text =
-      "    <plugin filename=\"gz-sim-diff-drive-system\" name=\"gz::sim::systems::DiffDrive\">\n      " +
-      tag("left_joint", "left") + tag("right_joint", "right") +
-      tag("wheel_separation", number(2 * robot.half_track_m)) + tag("wheel_radius", number(robot.radius_m)) +
-      "\n";
-  const auto limit = [&](const char* name, double value) {
-    if (std::isfinite(value)) text += "      " + tag(name, number(value)) + "\n";
+Fillings robot_values(const ExportedRobot& robot) {
+  return {{"@NAME@", robot.name},
+          {"@GRAVITY@", number(-kGravity_m_s2)},
+          {"@RADIUS@", number(robot.radius_m)},
+          {"@TRACK@", number(2 * robot.half_track_m)},
+          {"@MASS@", number(robot.mass_kg)},
+          {"@CENTER@", number(robot.center_m)},
+          {"@YAW@", number(robot.yaw_kg_m2)},
+          {"@WHEEL_MASS@", number(robot.wheel_kg)},
+          {"@ACROSS@", number(robot.across_kg_m2)},
+          {"@AXLE@", number(robot.body_axle_kg_m2)},
+          {"@ROTOR@", number(robot.rotor_kg_m2)},
+          {"@CASTER_RADIUS@", number(robot.caster_radius_m)},
+          {"@CASTER_Z@", number(robot.caster_z_m)},
+          {"@FRICTION@", number(robot.friction)}};
+}
+
+Fillings wheel_values(const ExportedWheel& wheel) {
+  const Motor& motor = wheel.motor;
+  const double K = motor.torque_per_ampere_Nm_A(), Kv = motor.volts_per_speed_V_s_rad();
+  std::string range;
+  if (std::isfinite(motor.max_voltage_V))
+    range = " ctrllimited=\"true\" ctrlrange=\"" + number(-motor.max_voltage_V) + " " +
+            number(motor.max_voltage_V) + "\"";
+  return {{"@SIDE@", wheel.side},
+          {"@Y@", number(wheel.y_m)},
+          {"@Z@", number(wheel.z_m)},
+          {"@WHEEL_RADIUS@", number(wheel.radius_m)},
+          {"@WHEEL_WIDTH@", number(0.3 * wheel.radius_m)},
+          {"@DAMPING@", number(motor.viscous_friction_Nm_s_rad)},
+          {"@DRY@", number(motor.friction_torque_Nm)},
+          {"@GAIN@", number(K / motor.resistance_ohm)},
+          {"@BIAS@", number(-K * Kv / motor.resistance_ohm)},
+          {"@RANGE@", range}};
+}
+
+/// Limits of Gazebo's drive plugin, the same in a URDF and in an SDF.
+std::string plugin_limits(const Limits& limits) {
+  std::string text;
+  for (const auto& [name, value] : {std::pair{"max_linear_velocity", limits.speed_m_s},
+                                    {"min_linear_velocity", -limits.reverse_speed_m_s},
+                                    {"max_linear_acceleration", limits.acceleration_m_s2},
+                                    {"min_linear_acceleration", -limits.deceleration_m_s2},
+                                    {"max_angular_velocity", limits.yaw_rate_rad_s},
+                                    {"max_angular_acceleration", limits.yaw_acceleration_rad_s2}})
+    if (std::isfinite(value))
+      text += "      <" + std::string(name) + ">" + number(value) + "</" + name + ">\n";
+  return text;
+}
+
+std::string model_text(const ExportedRobot& robot, const Templates& templates) {
+  const auto add = [](Fillings values, const Fillings& more) {
+    values.insert(values.end(), more.begin(), more.end());
+    return values;
   };
-  limit("max_linear_velocity", robot.limits.speed_m_s);
-  limit("min_linear_velocity", -robot.limits.reverse_speed_m_s);
-  limit("max_linear_acceleration", robot.limits.acceleration_m_s2);
-  limit("min_linear_acceleration", -robot.limits.deceleration_m_s2);
-  limit("max_angular_velocity", robot.limits.yaw_rate_rad_s);
-  limit("max_angular_acceleration", robot.limits.yaw_acceleration_rad_s2);
-  return text + "    </plugin>\n";
-}
-
-std::string urdf_inertial(const std::string& at, double mass_kg, double ixx, double iyy, double izz) {
-  return "    <inertial><origin xyz=\"" + at + "\"/><mass value=\"" + number(mass_kg) +
-         "\"/><inertia ixx=\"" + number(ixx) + "\" iyy=\"" + number(iyy) + "\" izz=\"" + number(izz) +
-         "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>\n";
-}
-
-std::string urdf_text(const ExportedRobot& robot) {
-  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + robot.name +
-                     "\">\n  <link name=\"base_link\">\n" +
-                     urdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
-                                   robot.yaw_kg_m2, robot.yaw_kg_m2);
+  const Fillings values = robot_values(robot);
+  std::string casters, wheels, motors;
   for (const double x_m : {robot.caster_m, -robot.caster_m})
-    text += "    <collision><origin xyz=\"" + number(x_m) + " 0 " + number(robot.caster_z_m) +
-            "\"/><geometry><sphere radius=\"" + number(robot.caster_radius_m) +
-            "\"/></geometry></collision>\n";
-  text += "  </link>\n  <gazebo reference=\"base_link\"><mu1>0</mu1><mu2>0</mu2></gazebo>\n";
+    casters +=
+        filled(templates.caster, add(values, {{"@X@", number(x_m)}, {"@END@", x_m > 0 ? "front" : "back"}}));
   for (const ExportedWheel& wheel : robot.wheels) {
-    const std::string name = wheel.side;
-    text += "  <joint name=\"" + name + "\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"" +
-            name + "_wheel\"/>\n    <origin xyz=\"0 " + number(wheel.y_m) + " " + number(wheel.z_m) +
-            "\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"" + number(wheel.motor.viscous_friction_Nm_s_rad) +
-            "\" friction=\"" + number(wheel.motor.friction_torque_Nm) + "\"/></joint>\n  <link name=\"" +
-            name + "_wheel\">\n" +
-            urdf_inertial("0 0 0", robot.wheel_kg, robot.across_kg_m2, robot.body_axle_kg_m2,
-                          robot.across_kg_m2) +
-            "    <collision><geometry><sphere radius=\"" + number(wheel.radius_m) +
-            "\"/></geometry></collision>\n  </link>\n" + "  <gazebo reference=\"" + name + "_wheel\">" +
-            tag("mu1", number(robot.friction)) + tag("mu2", number(robot.friction)) + "</gazebo>\n";
+    const Fillings of_wheel = add(values, wheel_values(wheel));
+    wheels += filled(templates.wheel, of_wheel);
+    motors += filled(templates.motor, of_wheel);
   }
-  return text + "  <gazebo>\n" + plugin_text(robot) + "  </gazebo>\n</robot>\n";
-}
-
-std::string sdf_inertial(const std::string& at, double mass_kg, double ixx, double iyy, double izz) {
-  return "      <inertial><pose>" + at + " 0 0 0</pose>" + tag("mass", number(mass_kg)) + "<inertia>" +
-         tag("ixx", number(ixx)) + tag("iyy", number(iyy)) + tag("izz", number(izz)) +
-         "</inertia></inertial>\n";
-}
-
-std::string sdf_sphere(const std::string& name, const std::string& at, double radius_m, double friction) {
-  return "      <collision name=\"" + name + "\"><pose>" + at + " 0 0 0</pose><geometry><sphere>" +
-         tag("radius", number(radius_m)) + "</sphere></geometry>\n        <surface><friction><ode>" +
-         tag("mu", number(friction)) + tag("mu2", number(friction)) +
-         "</ode></friction></surface></collision>\n";
-}
-
-std::string sdf_text(const ExportedRobot& robot) {
-  std::string text = "<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n  <model name=\"" + robot.name +
-                     "\">\n    <pose>0 0 " + number(robot.radius_m) +
-                     " 0 0 0</pose>\n    <link name=\"base_link\">\n" +
-                     sdf_inertial(number(robot.center_m) + " 0 0", robot.mass_kg, robot.yaw_kg_m2,
-                                  robot.yaw_kg_m2, robot.yaw_kg_m2);
-  for (const double x_m : {robot.caster_m, -robot.caster_m})
-    text += sdf_sphere(x_m > 0 ? "front" : "back", number(x_m) + " 0 " + number(robot.caster_z_m),
-                       robot.caster_radius_m, 0.0);
-  text += "    </link>\n";
-  for (const ExportedWheel& wheel : robot.wheels) {
-    const std::string name = wheel.side;
-    text +=
-        "    <link name=\"" + name + "_wheel\">\n      <pose>0 " + number(wheel.y_m) + " " +
-        number(wheel.z_m) + " 0 0 0</pose>\n" +
-        sdf_inertial("0 0 0", robot.wheel_kg, robot.across_kg_m2, robot.body_axle_kg_m2, robot.across_kg_m2) +
-        sdf_sphere("tire", "0 0 0", wheel.radius_m, robot.friction) + "    </link>\n    <joint name=\"" +
-        name + "\" type=\"revolute\"><parent>base_link</parent><child>" + name +
-        "_wheel</child>\n      <axis><xyz>0 1 0</xyz><dynamics>" +
-        tag("damping", number(wheel.motor.viscous_friction_Nm_s_rad)) +
-        tag("friction", number(wheel.motor.friction_torque_Nm)) + "</dynamics></axis>\n    </joint>\n";
-  }
-  return text + plugin_text(robot) + "  </model>\n</sdf>\n";
+  const std::string plugin =
+      filled(embedded::plugin, add(values, {{"@LIMITS@", plugin_limits(robot.limits)}}));
+  return filled(
+      templates.model,
+      add(values,
+          {{"@CASTERS@", casters}, {"@WHEELS@", wheels}, {"@MOTORS@", motors}, {"@PLUGIN@", plugin}}));
 }
 
 }  // namespace
 
 ModelExport model_export(const Robot& robot, double payload_kg, const std::string& format) {
   const ExportedRobot out = exported(robot, payload_kg);
-  ModelExport result{.text = format == "mjcf"   ? mjcf_text(out)
-                             : format == "urdf" ? urdf_text(out)
-                                                : sdf_text(out)};
+  ModelExport result{.text = model_text(out, templates_of(format))};
   if (!robot.effects.empty())
     result.lost.push_back("effects: " + text_of_list(robot.effects, &EffectSetting::name));
   if (format == "mjcf") return result;

@@ -1,4 +1,3 @@
-#include "extensions/studies/result_schemas.hpp"
 #include "extensions/studies/study_file.hpp"
 #include "scenarios/any_file.hpp"
 #include "scenarios/registry.hpp"

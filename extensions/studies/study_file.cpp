@@ -8,28 +8,17 @@
 #include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
+
+namespace embedded {
+extern const std::string_view studies_schemas;
+}
+
 namespace {
 
 constexpr const char* kGear = "motor.gear_ratio";
-
-Schema parameter_schema() {
-  return map({required("key", text(),
-                       "robot.KEY or mission.KEY, with points and [0] or [*]: "
-                       "robot.motor.gear_ratio, mission.legs[*].payload_kg"),
-              optional("values", list(any_of({number(), text()}), 1), "the levels"),
-              optional("from", number(), "least value of a range"), optional("to", number(), "largest value"),
-              optional("count", integer({2, 100'000}), "levels of the range on a grid; default 5"),
-              optional("scale", choice({"linear", "log"}), "how the range is divided; default linear")})
-      .with_exactly_one({"values", "from"});
-}
-
-Schema sampling_schema() {
-  return map({required("method", choice({"grid", "latin_hypercube"})),
-              optional("designs", integer({2, static_cast<double>(DesignTable::kMost)}), "of a hypercube"),
-              optional("seed", integer(kNotNegative), "of a hypercube; default 1")});
-}
 
 constexpr double kLeastStep = 1e-11;  // between levels, of a range's larger end
 
@@ -216,20 +205,13 @@ const std::vector<std::string>& sweep_results() {
 }
 
 Schema study_schema() {
-  const Schema bounds = map({optional("min", number()), optional("max", number())});
-  return map(
-      {optional("schema", text(), "joulepath/study/1"), optional("name", text()),
-       required("missions", any_of({text(), list(text(), 1)}), "mission files or folders of missions"),
-       optional("robot", text(), "robot file; default: each mission's own"),
-       required("parameters", dictionary(parameter_schema()), "by the name of their column"),
-       optional("sampling", sampling_schema(), "default: the grid of all levels"),
-       optional("constraints", dictionary(bounds), "bounds on results; a design outside is infeasible"),
-       optional("objectives", dictionary(choice({"minimize", "maximize"})),
-                "of the Pareto front: results, or parameters such as a payload; default energy_J"),
-       optional("hold_friction", choice({"wheel", "motor"}),
-                "where friction stays constant while motor.gear_ratio changes: at the wheel (default), or "
-                "at the motor's shaft, so that it grows at the wheel with the ratio")});
+  return schema_in(embedded::studies_schemas, "study", false,
+                   {{"designs", integer({2, static_cast<double>(DesignTable::kMost)})}});
 }
+
+Schema sweep_schema() { return schema_in(embedded::studies_schemas, "sweep", true); }
+
+Schema shard_schema() { return schema_in(embedded::studies_schemas, "shard", true); }
 
 Study read_study(const std::string& file, const ReadOptions& options) {
   std::string text = read_text_file(file);

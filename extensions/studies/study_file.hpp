@@ -56,6 +56,8 @@ struct Study {
 [[nodiscard]] const std::vector<std::string>& sweep_results();
 
 [[nodiscard]] Schema study_schema();
+[[nodiscard]] Schema sweep_schema();  ///< sweep.json
+[[nodiscard]] Schema shard_schema();  ///< shard.json
 
 /// The columns of a row of sweep.csv that are neither a parameter nor a result: before and after the
 /// parameters.

@@ -3,8 +3,15 @@
 
 #include "extensions/vda5050/order.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
+
+namespace embedded {
+extern const std::string_view vda5050_schemas;
+}
+
 namespace {
 
 using Blocking = OrderAction::Blocking;
@@ -185,6 +192,12 @@ Order order_from(const Document& document) {
 }
 
 }  // namespace
+
+Schema order_schema() {
+  return schema_in(embedded::vda5050_schemas, "order", true,
+                   {{"coordinate", number({-kFarthest_m, kFarthest_m})},
+                    {"degree", integer({1, RationalBezier::kMostDegree})}});
+}
 
 std::size_t Order::released_count() const {
   const auto end = std::find_if(nodes.begin(), nodes.end(), [](const auto& node) { return !node.released; });

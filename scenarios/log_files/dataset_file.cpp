@@ -19,6 +19,8 @@
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 #include "scenarios/text/csv_table.hpp"
+#include "scenarios/text/schema_documents.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -257,31 +259,11 @@ class RunReader {
   const DatasetInMemory& memory_;
 };
 
-Schema run_schema() {
-  const Schema payload =
-      any_of({number(kNotNegative),
-              list(map({required("from_s", number()), required("kg", number(kNotNegative))}), 1)});
-  return map({optional("file", text(), "run log (CSV)"),
-              optional("files", list(text(), 1), "several logs of one run, aligned by time"),
-              optional("motion", motion_schema(), "the motion of an energy-only run"),
-              optional("columns", column_sources_schema(), "of this run, instead of the dataset's"),
-              optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
-              optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),
-              optional("surface", text()), optional("use", choice({"any", "diagnosis", "validation"})),
-              optional("predicted", text(), "log that the user's own simulator gave for this run"),
-              optional("measured_energy_J", map({required("left", number()), required("right", number())})),
-              optional("battery_energy_Wh", number())})
-      .with_exactly_one({"file", "files", "motion"});
-}
-
 }  // namespace
 
 Schema dataset_schema() {
-  return with_physical_bounds(
-      map({optional("schema", text(), "joulepath/dataset/1"), optional("name", text()),
-           optional("robot", text(), "robot file"),
-           optional("columns", column_sources_schema(), "only where the log's own names or units differ"),
-           required("runs", list(run_schema(), 1))}));
+  return with_physical_bounds(schema_in(embedded::file_schemas, "dataset", false,
+                                        {{"columns", column_sources_schema()}, {"motion", motion_schema()}}));
 }
 
 Dataset read_dataset(const std::string& file, const ReadOptions& options, const std::string& robot_file) {

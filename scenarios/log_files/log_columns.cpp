@@ -1,19 +1,12 @@
 #include "scenarios/log_files/log_columns.hpp"
 
+#include "scenarios/text/schema_documents.hpp"
+#include "scenarios/text/schema_text.hpp"
+
 namespace joulepath {
 
 Schema column_sources_schema() {
-  const Schema source = map({
-      optional("from", any_of({text(), list(text(), 1)}),
-               "name in the log; of a list the first name that the file has"),
-      optional("scale", number(), "value = scale * x + offset"),
-      optional("offset", number()),
-      optional("unsigned", boolean(), "the sign comes from the wheel's motion"),
-      optional("wraps_at", number(kPositive), "value at which a counter restarts at 0, in the log's unit"),
-      optional("derivative", boolean(), "use the change per second of the logged value (encoder ticks)"),
-      optional("delay_s", number({-10, 10}), "delay of the channel's readings"),
-      optional("absent", boolean(), "ignore the column (a dead channel)"),
-  });
+  const Schema source = schema_in(embedded::file_schemas, "column", false);
   std::vector<Schema::Key> keys;
   for (const auto& column : log_columns())
     if (column.measured) keys.push_back(optional(column.name, source));

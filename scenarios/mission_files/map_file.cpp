@@ -7,6 +7,8 @@
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/image.hpp"
+#include "scenarios/text/schema_documents.hpp"
+#include "scenarios/text/schema_text.hpp"
 #include "scenarios/text/three_digits.hpp"
 
 namespace joulepath {
@@ -87,17 +89,7 @@ void check_yaw(const Node& yaw) {
 
 }  // namespace
 
-Schema map_schema() {
-  return open(with_physical_bounds(map(
-      {optional("schema", text(), "joulepath/map/1; Nav2's maps have no such line"),
-       required("image", text(), "PGM or PNG, relative to this file"),
-       optional("mode", choice({"trinary", "scale", "raw"}), "default trinary"),
-       required("resolution", number(kPositive), "metres per pixel"),
-       required("origin", list(number(), 3, 3), "[x, y, yaw] of the image's lower left corner, m and rad"),
-       optional("negate", choice({"0", "1", "false", "true", "False", "True", "FALSE", "TRUE"}),
-                "white is occupied"),
-       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))})));
-}
+Schema map_schema() { return open(with_physical_bounds(schema_in(embedded::file_schemas, "map", false))); }
 
 std::string map_image_file(const std::string& file, const ReadOptions& options) {
   return resolve_file(Document::load(file).root()["image"], options);

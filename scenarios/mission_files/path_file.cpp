@@ -16,6 +16,8 @@
 #include "scenarios/mission_files/motion_entry.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/csv_table.hpp"
+#include "scenarios/text/schema_documents.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -204,14 +206,7 @@ WaypointPath path_along(const CsvTable& table, std::optional<double> tolerance_m
 
 Schema path_schema() {
   return with_physical_bounds(
-      map({optional("schema", text(), "joulepath/path/1"),
-           optional("bezier_m", bezier_schema(),
-                    "chain of cubic Bezier curves in the map frame, four control points each"),
-           optional("waypoints", text(), "CSV file with columns x_m and y_m, in the map frame"),
-           optional("tolerance_m", number(kNotNegative),
-                    "how far the curve may be from dense waypoints; default 0.01, more along the steps of a "
-                    "grid; 0: through all of them")})
-          .with_exactly_one({"bezier_m", "waypoints"}));
+      schema_in(embedded::file_schemas, "path", false, {{"bezier", bezier_schema()}}));
 }
 
 bool is_path(const Document& document) {

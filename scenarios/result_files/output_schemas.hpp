@@ -4,12 +4,8 @@
 
 namespace joulepath {
 
-/// Schemas of the program's outputs. Results may have further keys in later versions.
-[[nodiscard]] Schema plan_schema();
-[[nodiscard]] Schema diagnosis_schema();
-[[nodiscard]] Schema after_schema();
-[[nodiscard]] Schema edges_schema();
-[[nodiscard]] Schema loss_schema();
-[[nodiscard]] std::vector<Schema::Key> loss_keys();  ///< without schema and name
+/// Schema of an output of the program (plan, diagnosis, after, edges, loss), or of a part of one. Results may
+/// have further keys in later versions.
+[[nodiscard]] Schema result_schema(const std::string& name);
 
 }  // namespace joulepath

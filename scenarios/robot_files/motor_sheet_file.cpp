@@ -8,6 +8,8 @@
 #include "model/printable.hpp"
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/schema_documents.hpp"
+#include "scenarios/text/schema_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -93,23 +95,7 @@ std::string rated_note(const MotorSheet& sheet, const SheetMotor& motor) {
 }  // namespace
 
 Schema motor_sheet_schema() {
-  const Schema torque = number({1e-6, 1e5}), current = number({1e-4, 1e4}), speed = number({1e-2, 1e6});
-  return with_physical_bounds(map(
-      {optional("schema", text(), "joulepath/motor_sheet/1"),
-       required(
-           "motor_sheet",
-           map({optional("name", text()),
-                required("at", choice({"output", "motor"}),
-                         "the shaft of speeds and torques: of the gear, or of the motor"),
-                optional("gear_ratio", number(kPositive), "motor turns per turn of the output; default 1"),
-                required("nominal_voltage_V", number(kPositive), "at which the figures hold"),
-                required("no_load_speed_rpm", speed), required("no_load_current_A", current),
-                optional("stall_torque_Nm", torque), optional("stall_current_A", current),
-                optional("rated_torque_Nm", torque), optional("rated_speed_rpm", speed),
-                optional("rated_current_A", current),
-                optional("resistance_ohm", number(kPositive), "between two terminals"),
-                optional("speed_constant_rpm_V", speed,
-                         "of the motor's shaft, per volt between two terminals")}))}));
+  return with_physical_bounds(schema_in(embedded::file_schemas, "motor_sheet", false));
 }
 
 RobotDraft read_motor_sheet(const Document& document) {

@@ -4,8 +4,8 @@
 
 #include "app/command_line.hpp"
 #include "app/plan/loss_table.hpp"
+#include "app/plan/plan_comparison.hpp"
 #include "app/plan/profile_columns.hpp"
-#include "extensions/nav2/commands/nav2_commands.hpp"
 #include "extensions/nav2/controller_settings.hpp"
 #include "scenarios/export/loss_json.hpp"
 

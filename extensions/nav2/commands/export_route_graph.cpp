@@ -1,8 +1,8 @@
 #include <iostream>
 
 #include "app/command_line.hpp"
+#include "app/export_task.hpp"
 #include "app/terminal.hpp"
-#include "extensions/nav2/commands/nav2_commands.hpp"
 #include "extensions/nav2/route_graph_export.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"

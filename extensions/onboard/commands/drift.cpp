@@ -6,7 +6,6 @@
 
 #include "app/command_line.hpp"
 #include "app/terminal.hpp"
-#include "extensions/onboard/commands/onboard_commands.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"

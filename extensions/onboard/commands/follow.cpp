@@ -8,7 +8,6 @@
 #include "app/command_line.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
-#include "extensions/onboard/commands/onboard_commands.hpp"
 #include "extensions/onboard/planned_pieces.hpp"
 #include "extensions/onboard/replan/follow_drive.hpp"
 #include "model/text_of_list.hpp"

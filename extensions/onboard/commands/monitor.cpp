@@ -5,7 +5,6 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "extensions/onboard/commands/onboard_commands.hpp"
 #include "extensions/onboard/log_stream.hpp"
 #include "extensions/onboard/planned_course_file.hpp"
 #include "extensions/onboard/write_monitor_event.hpp"

@@ -1,8 +1,10 @@
-#include "extensions/onboard/commands/onboard_commands.hpp"
-
 #include "app/program_parts.hpp"
 
 namespace joulepath {
+
+std::unique_ptr<Command> make_follow_command();
+std::unique_ptr<Command> make_monitor_command();
+std::unique_ptr<Command> make_drift_command();
 
 void add_onboard_commands(ProgramParts& parts) {
   parts.add(make_follow_command);

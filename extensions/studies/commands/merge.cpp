@@ -6,7 +6,6 @@
 #include "app/jobs/content_hash.hpp"
 #include "app/jobs/job_results.hpp"
 #include "extensions/studies/commands/shard_manifest.hpp"
-#include "extensions/studies/commands/studies_commands.hpp"
 #include "extensions/studies/commands/sweep_output.hpp"
 
 namespace joulepath {

@@ -8,7 +8,7 @@
 #include "app/build_id.hpp"
 #include "app/command.hpp"
 #include "app/jobs/job_results.hpp"
-#include "extensions/studies/result_schemas.hpp"
+#include "extensions/studies/study_file.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"

@@ -3,10 +3,10 @@
 #include "app/build_id.hpp"
 #include "app/command_line.hpp"
 #include "app/jobs/content_hash.hpp"
+#include "app/jobs/job_part.hpp"
 #include "app/jobs/job_results.hpp"
 #include "extensions/studies/commands/quarantine.hpp"
 #include "extensions/studies/commands/shard_manifest.hpp"
-#include "extensions/studies/commands/studies_commands.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,8 +1,10 @@
-#include "extensions/studies/commands/studies_commands.hpp"
-
 #include "app/program_parts.hpp"
 
 namespace joulepath {
+
+std::unique_ptr<Command> make_sweep_command();
+std::unique_ptr<Command> make_merge_command();
+std::unique_ptr<JobPart> make_shard_part();
 
 void add_studies_commands(ProgramParts& parts) {
   parts.add(make_sweep_command);

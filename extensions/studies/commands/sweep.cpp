@@ -7,7 +7,6 @@
 #include "app/jobs/job_results.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan/plan_options.hpp"
-#include "extensions/studies/commands/studies_commands.hpp"
 #include "extensions/studies/commands/sweep_jobs.hpp"
 #include "extensions/studies/commands/sweep_output.hpp"
 #include "extensions/studies/commands/sweep_result.hpp"

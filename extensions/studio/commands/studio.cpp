@@ -6,7 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/diagnose/diagnosis_results.hpp"
 #include "app/output_directory.hpp"
-#include "extensions/studio/commands/studio_commands.hpp"
+#include "app/program_parts.hpp"
 #include "extensions/studio/server/page.hpp"
 #include "extensions/studio/server/server.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
@@ -82,8 +82,10 @@ class StudioCommand : public Command {
   CommonOptions common_{};
 };
 
+std::unique_ptr<Command> make_studio_command() { return std::make_unique<StudioCommand>(); }
+
 }  // namespace
 
-std::unique_ptr<Command> make_studio_command() { return std::make_unique<StudioCommand>(); }
+void add_studio_commands(ProgramParts& parts) { parts.add(make_studio_command); }
 
 }  // namespace joulepath

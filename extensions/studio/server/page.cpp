@@ -6,6 +6,7 @@
 #include "app/report/page_text.hpp"
 #include "extensions/studio/modules.hpp"
 #include "scenarios/text/document.hpp"
+#include "scenarios/text/filled.hpp"
 
 namespace joulepath::embedded {
 extern const std::string_view studio_page, studio_style, studio_core_js, studio_core_wasm;
@@ -21,15 +22,15 @@ std::string page(const nlohmann::json& data, const std::string& tree) {
   };
   nlohmann::json versioned = data;
   versioned["version"] = JOULEPATH_VERSION;
-  return report::filled(file(embedded::studio_page, "studio.html"),
-                        {{"@PAGE_STYLE@", report::shared_style()},
-                         {"@STYLE@", file(embedded::studio_style, "studio.css")},
-                         {"@MODULES@", report::module_scripts(report::shared_modules(), tree) +
-                                           report::module_scripts(report::kStudioModules, tree)},
-                         {"@BOOT@", report::boot_script()},
-                         {"@CORE_JS@", report::shielded(embedded::studio_core_js)},
-                         {"@CORE_WASM@", std::string(embedded::studio_core_wasm)},
-                         {"@DATA@", report::script_safe(versioned)}});
+  return filled(file(embedded::studio_page, "studio.html"),
+                {{"@PAGE_STYLE@", report::shared_style()},
+                 {"@STYLE@", file(embedded::studio_style, "studio.css")},
+                 {"@MODULES@", report::module_scripts(report::shared_modules(), tree) +
+                                   report::module_scripts(report::kStudioModules, tree)},
+                 {"@BOOT@", report::boot_script()},
+                 {"@CORE_JS@", report::shielded(embedded::studio_core_js)},
+                 {"@CORE_WASM@", std::string(embedded::studio_core_wasm)},
+                 {"@DATA@", report::script_safe(versioned)}});
 }
 
 }  // namespace joulepath::studio
