@@ -42,7 +42,6 @@ class Robot:
     recovered: float
     shared_bus: bool
     limits: dict
-    sharpest: float = 1 / 0.12  # half track * curvature: the planner's smallest arc, 0.12 half tracks
 
 
 def sided(value):
@@ -247,17 +246,17 @@ class Chain:
 
         self.robot, self.parts, self.legs = robot, parts, legs
         self.accounts = 1 if robot.shared_bus else 2
-        shares, width, pose = ca.MX.sym("shares", parts, legs), ca.MX.sym("width"), ca.MX.sym("pose", 3, legs + 1)
+        shares, shape, pose = ca.MX.sym("shares", parts, legs), ca.MX.sym("shape", 2), ca.MX.sym("pose", 3, legs + 1)
         functions = self.functions(ca)
         unknowns, rows, total, before = [], [], 0, pose[2, 0]
         for leg in range(legs):
-            x, g, cost, first, last = self.leg(ca, leg, shares[:, leg], width, functions)
+            x, g, cost, first, last = self.leg(ca, leg, shares[:, leg], shape, functions)
             unknowns.append(x)
             rows += [g, first[:2] - pose[:2, leg], last[:2] - pose[:2, leg + 1], first[2] - before]
             before, total = last[2], total + cost
         rows.append(before - pose[2, legs])
         nlp = {"x": ca.vertcat(*unknowns), "f": total, "g": ca.vertcat(*rows),
-               "p": ca.vertcat(ca.vec(shares), ca.vec(pose), width)}
+               "p": ca.vertcat(ca.vec(shares), ca.vec(pose), shape)}
         self.make = lambda options: ca.nlpsol("joint", "ipopt", nlp, options)
         self.bounds, self.solvers, self.iterations = self.all_bounds(), {}, 0
 
@@ -270,22 +269,25 @@ class Chain:
         return {"lbg": np.append(again(g_low), 0), "ubg": np.append(again(g_high), 0),
                 "lbx": again(x_low), "ubx": again(x_high)}
 
-    def solver(self, iterations, tolerance, first_barrier):
-        key = iterations, tolerance, first_barrier
+    def solver(self, tolerance, first_barrier):
+        key = tolerance, first_barrier
         if key not in self.solvers:
             self.solvers[key] = self.make({
                 "print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes",
-                "ipopt.tol": tolerance, "ipopt.max_iter": iterations, "ipopt.mu_init": first_barrier,
+                "ipopt.tol": tolerance, "ipopt.max_iter": 300, "ipopt.mu_init": first_barrier,
                 "ipopt.acceptable_iter": 5, "ipopt.acceptable_tol": 10 * tolerance,
                 "ipopt.acceptable_obj_change_tol": 1e-6, "error_on_fail": False})
         return self.solvers[key]
 
-    def solve(self, guesses, poses, width=0.1, iterations=300, tolerance=1e-6, first_barrier=0.1):
-        """From one drive for each leg: the drives found, the objective (J) and whether Ipopt converged."""
+    def solve(self, guesses, poses, width=0.1, sharpest=SHARPEST, tolerance=1e-6, first_barrier=0.1):
+        """From one drive for each leg: the drives found, the objective (J) and whether Ipopt converged.
+
+        `width`: of the sign of friction, in u or in m/s; `sharpest`: bound of u, of the program over time.
+        """
         shares = [self.shares(guess) for guess in guesses]
         first = np.concatenate([part for guess in guesses for part in self.unknowns(guess)])
-        solver = self.solver(iterations, tolerance, first_barrier)
-        found = solver(x0=first, p=np.concatenate([*shares, *np.array(poses, float), [width]]), **self.bounds)
+        solver = self.solver(tolerance, first_barrier)
+        found = solver(x0=first, p=np.concatenate([*shares, *np.array(poses, float), [width, sharpest]]), **self.bounds)
         stats = solver.stats()
         self.iterations = stats["iter_count"]
         values = np.array(found["x"]).ravel().reshape(self.legs, -1)
@@ -305,13 +307,13 @@ class Program(Chain):
     def row_bounds(self):
         return row_bounds(self.robot)
 
-    def leg(self, ca, leg, shares, width, functions):
+    def leg(self, ca, leg, shares, shape, functions):
         n = self.parts
         state, inner = ca.MX.sym(f"state{leg}", 4, n + 1), ca.MX.sym(f"b{leg}", n - 1)
         lost, length = ca.MX.sym(f"lost{leg}", self.accounts, n), ca.MX.sym(f"length{leg}")
         heading, u, b = state[2, :], state[3, :], ca.horzcat(REST, inner.T, REST)
         h = (shares * length).T
-        dt, energy, turn, limited = functions[0](b[:-1], b[1:], u[:-1], u[1:], h, width)
+        dt, energy, turn, limited = functions[0](b[:-1], b[1:], u[:-1], u[1:], h, shape[0])
         way = functions[1](heading[:-1], u[:-1], u[1:], h)
         follow = ca.vertcat(state[:2, 1:] - state[:2, :-1] - way, heading[1:] - heading[:-1] - turn)
         g = ca.vertcat(ca.vec(follow), ca.vec(lost + energy), ca.vec(limited))
@@ -340,9 +342,11 @@ class Program(Chain):
 
 
 def timed_function(ca, robot):
-    """(heading, speed, yaw rate at both ends, seconds, width of the sign in m/s) of a part in which speed and yaw
-    rate are linear in time -> energies per account, way in x and y and turn, limited rows."""
-    heading, v0, v1, w0, w1, dt, width = (ca.SX.sym(name) for name in ("heading", "v0", "v1", "w0", "w1", "dt", "width"))
+    """(heading, speed, yaw rate at both ends, seconds, [width of the sign in m/s, bound of u]) of a part in which
+    speed and yaw rate are linear in time -> energies per account, way in x and y and turn, limited rows."""
+    heading, v0, v1, w0, w1, dt = (ca.SX.sym(name) for name in ("heading", "v0", "v1", "w0", "w1", "dt"))
+    shape = ca.SX.sym("shape", 2)
+    width, sharpest = shape[0], shape[1]
     l, a, alpha = robot.half_track_m, (v1 - v0) / dt, (w1 - w0) / dt
     energy, x, y = [0, 0], 0, 0
     for node, weight in zip(*GAUSS[4]):
@@ -355,15 +359,15 @@ def timed_function(ca, robot):
         x, y = x + weight / 2 * dt * v * ca.cos(at), y + weight / 2 * dt * v * ca.sin(at)
     accounts = [energy[0] + energy[1]] if robot.shared_bus else energy
     middle = (v0 + v1) * (w0 + w1) / 4
-    rows = [a, alpha, middle, v1 * w1, robot.sharpest * v1 - l * w1, robot.sharpest * v1 + l * w1]
-    return ca.Function("timed", [heading, v0, v1, w0, w1, dt, width],
+    rows = [a, alpha, middle, v1 * w1, sharpest * v1 - l * w1, sharpest * v1 + l * w1]
+    return ca.Function("timed", [heading, v0, v1, w0, w1, dt, shape],
                        [ca.vertcat(*accounts), ca.vertcat(x, y, dt * (w0 + w1) / 2), ca.vertcat(*rows)])
 
 
 class TimedProgram(Chain):
     """Over time, in parts of equal length: a second transcription that resolves sharp bends at rest well.
 
-    Curvature is bounded by robot.sharpest / half track, a linear row in speed and yaw rate.
+    Curvature is bounded by `sharpest` over half the track, a linear row in speed and yaw rate.
     """
 
     def functions(self, ca):
@@ -375,13 +379,13 @@ class TimedProgram(Chain):
         high = np.array([at("acceleration_m_s2"), at("yaw_acceleration_rad_s2"), side, side, np.inf, np.inf])
         return np.array([-at("deceleration_m_s2"), *-high[1:4], 0, 0]), high
 
-    def leg(self, ca, leg, shares, width, part):
+    def leg(self, ca, leg, shares, shape, part):
         n = self.parts
         state, inner = ca.MX.sym(f"state{leg}", 3, n + 1), ca.MX.sym(f"rates{leg}", 2, n - 1)
         lost, seconds = ca.MX.sym(f"lost{leg}", self.accounts, n), ca.MX.sym(f"seconds{leg}")
         rest = ca.DM.zeros(2, 1)
         rates, dt = ca.horzcat(rest, inner, rest), ca.repmat(seconds / n, 1, n)
-        energy, step, limited = part(state[2, :-1], rates[0, :-1], rates[0, 1:], rates[1, :-1], rates[1, 1:], dt, width)
+        energy, step, limited = part(state[2, :-1], rates[0, :-1], rates[0, 1:], rates[1, :-1], rates[1, 1:], dt, shape)
         g = ca.vertcat(ca.vec(state[:, 1:] - state[:, :-1] - step), ca.vec(lost + energy), ca.vec(limited))
         unknowns = ca.vertcat(ca.vec(state), ca.vec(inner), ca.vec(lost), seconds)
         return unknowns, g, self.cost(ca, energy, lost, seconds), state[:, 0], state[:, -1]

@@ -1,14 +1,16 @@
-"""The best drive that the nonlinear program of joint_program.py finds from many first drives, coarse to fine."""
+"""The best drives that the programs of joint_program.py find from many first drives, coarse to fine."""
 import itertools
 import math
 
 from joint_guesses import guesses
-from joint_program import Program, drive_energy, remeshed
+from joint_program import Program, TimedProgram, drive_energy, remeshed, timed, timed_energy
 
-COARSE, MIDDLE, FINE = (36, 0.1, 1e-5), (72, 0.03, 1e-6), (120, 0.01, 1e-6)  # parts, width of the sign, tolerance
-REFINED, ALIKE = 3, 2e-3  # drives that go on to the middle mesh; closer energies with like lengths are one drive
-WITHIN = 1.02  # of the best coarse energy: drives above it are dropped
-STOP_HEADINGS = 6  # of a free heading at a stop, of first drives
+ARC_PARTS, ARC_WIDTH = 36, 0.1  # of the coarse program over arc length; width of the sign of friction, of the speed
+PARTS, WIDTH_M_S = 60, 0.03  # of the program over time for each basin
+FINE_PARTS, FINE_WIDTH_M_S, FINE_BARRIER = 120, 0.003, 1e-3
+SAME = 1e-4  # closer energies are one basin
+WITHIN = 1.02  # of the best: basins above it are not refined
+STOP_HEADINGS = 4  # of first drives of two legs
 
 
 def as_end(goal, heading_rad):
@@ -17,57 +19,76 @@ def as_end(goal, heading_rad):
 
 
 class Search:
-    """Programs of one robot on three meshes, and the search over first drives."""
+    """The programs of one robot, and the searches over first drives; it counts solves and those without an answer."""
 
-    def __init__(self, robot, legs=1):
-        self.robot, self.legs = robot, legs
-        self.programs = {mesh: Program(robot, mesh[0], legs) for mesh in (COARSE, MIDDLE, FINE)}
-        self.solves, self.failed = 0, 0
+    def __init__(self, robot, sharpest, legs=1):
+        self.robot, self.sharpest, self.legs = robot, sharpest, legs
+        self.arc = Program(robot, ARC_PARTS) if legs == 1 else None
+        self.coarse, self.fine = TimedProgram(robot, PARTS, legs), TimedProgram(robot, FINE_PARTS, legs)
+        self.arc_solves = self.arc_failed = self.solves = self.failed = 0
 
-    def on(self, mesh, drives, poses):
-        """Solved on a mesh that follows the drives: the drives, their exact energy (J) and the poses."""
-        parts, width, tolerance = mesh
-        half_m = self.robot.half_track_m
-        firsts = [remeshed(drive, parts, half_m) for drive in drives]
-        found, _, good = self.programs[mesh].solve(firsts, poses, width, tolerance=tolerance)
+    def over_arc_length(self, first, poses):
+        """A drive of the coarse program over arc length, or nothing."""
+        (found,), _, good = self.arc.solve([remeshed(first, ARC_PARTS, self.robot.half_track_m)], poses, ARC_WIDTH,
+                                           tolerance=1e-5)
+        self.arc_solves, self.arc_failed = self.arc_solves + 1, self.arc_failed + (not good)
+        return found if good else None
+
+    def over_time(self, drives, poses, fine=False, sharpest=None):
+        """(energy in J, drives, poses) of the program over time, or nothing; another bound of u where it is given."""
+        program = self.fine if fine else self.coarse
+        firsts = [drive.on(program.parts) for drive in drives]
+        settings = (FINE_WIDTH_M_S, FINE_BARRIER) if fine else (WIDTH_M_S, 0.1)
+        found, _, good = program.solve(firsts, poses, settings[0], sharpest or self.sharpest, first_barrier=settings[1])
         self.solves, self.failed = self.solves + 1, self.failed + (not good)
-        if not good:
-            return None
-        return sum(drive_energy(self.robot, drive.s, drive.u, drive.b)[0] for drive in found), found, poses
+        return (sum(timed_energy(self.robot, drive) for drive in found), found, poses) if good else None
 
-    def best(self, firsts):
-        """(energy in J, drives, poses, names of the starts' energies) of the best of (name, drives, poses)."""
-        coarse, by_start = [], {}
-        for name, drives, poses in firsts:
-            found = self.on(COARSE, drives, poses)
-            if found:
-                by_start[name] = found[0]
-                coarse.append((*found, name))
-        coarse.sort(key=lambda row: row[0])
-        middle = []
-        for row in self.unlike(coarse)[:REFINED]:
-            found = self.on(MIDDLE, row[1], row[2])
-            middle.append((*found, row[3]) if found else row)
-        middle.sort(key=lambda row: row[0])
-        energy, drives, poses, name = middle[0]
-        for _ in range(2):
-            found = self.on(FINE, drives, poses)
-            if found and found[0] < energy:
-                energy, drives, poses = found
-        return energy, drives, poses, name, by_start
-
-    def unlike(self, rows):
-        """Drives within reach of the best one, one of each kind."""
-        kept = []
+    def best(self, rows):
+        """The best of (energy, drives, poses), each basin once and refined; how many basins."""
+        rows, basins = sorted(rows, key=lambda row: row[0]), []
         for row in rows:
-            length = sum(drive.s[-1] for drive in row[1])
-            like = any(abs(row[0] / other[0] - 1) < ALIKE and abs(length / sum(d.s[-1] for d in other[1]) - 1) < ALIKE
-                       for other in kept)
-            if row[0] <= WITHIN * rows[0][0] and not like:
-                kept.append(row)
-        return kept
+            if not basins or row[0] > basins[-1][0] * (1 + SAME):
+                basins.append(row)
+        near = [row for row in basins if row[0] <= WITHIN * basins[0][0]]
+        refined = [self.over_time(row[1], row[2], fine=True) or row for row in near]
+        return min(refined, key=lambda row: row[0]), len(basins)
 
     def leg(self, start, goal):
-        """The best drive between two poses (m, m, rad)."""
-        return self.best([(name, [first], [start, as_end(goal, first.heading[-1])])
-                          for name, first in guesses(self.robot, start, goal).items()])
+        """Between two poses (m, m, rad): (energy in J, drives, poses), the best energy (J) of the program over arc
+        length, first drives and basins."""
+        rows, by_arc, half_m = [], [], self.robot.half_track_m
+        firsts = guesses(self.robot, start, goal)
+        for first in firsts.values():
+            poses = [start, as_end(goal, first.heading[-1])]
+            found = self.over_arc_length(first, poses)
+            if found:
+                by_arc.append(drive_energy(self.robot, found.s, found.u, found.b)[0])
+            rows += [row for row in [self.over_time([timed(found or first, half_m)], poses)] if row]
+        best, basins = self.best(rows)
+        return best, min(by_arc, default=math.nan), len(firsts), basins
+
+    def again(self, best, sharpest):
+        """Energy (J) of the best drive solved again with another bound of u, or NaN."""
+        middle = self.over_time(best[1], best[2], sharpest=sharpest)
+        fine = middle and self.over_time(middle[1], middle[2], fine=True, sharpest=sharpest)
+        return (fine or middle or [math.nan])[0]
+
+    def two_legs(self, start, stop, goal):
+        """Through a stop (m, m) of free heading to a pose: the best (energy, drives, poses), first drives, basins."""
+        rows, count = [], 0
+        for k in range(STOP_HEADINGS):
+            here = stop[0], stop[1], 0.3 + 2 * math.pi * k / STOP_HEADINGS
+            for one in self.words(start, here):
+                middle = as_end(here, one.heading[-1])
+                for two in self.words(middle, goal):
+                    poses = [start, middle, as_end(goal, two.heading[-1])]
+                    drives = [timed(drive, self.robot.half_track_m) for drive in (one, two)]
+                    rows += [row for row in [self.over_time(drives, poses)] if row]
+                    count += 1
+        best, basins = self.best(rows)
+        return best, count, basins
+
+    def words(self, start, goal):
+        """Arc, line, arc with the four pairs of senses, of the smaller radius."""
+        firsts = guesses(self.robot, start, goal)
+        return [drive for name, drive in itertools.islice(firsts.items(), 4) if "S" in name]
