@@ -1,7 +1,8 @@
 """First drives for the nonlinear program of joint_program.py: words of arcs and lines, and cubic curves.
 
-Each begins in another basin: the turns at both ends, their radii, and so the length and the whole turns differ.
+Each begins in another basin: the turns at both ends and their radii differ, and so do length and whole turns.
 """
+
 import math
 
 import numpy as np
@@ -15,9 +16,10 @@ EASE = 0.5  # of the limits that the first speeds keep
 
 
 def word(start, goal, radius_m, first, last):
-    """Arc, line, arc [Dubins1957] with senses `first`, `last` (1: left): (length, curvature) of each, or None."""
-    centre = lambda pose, sense: np.array([pose[0] - sense * radius_m * math.sin(pose[2]),
-                                           pose[1] + sense * radius_m * math.cos(pose[2])])
+    """Arc, line, arc [Dubins1957] with senses `first`, `last` (1: left): lengths, curvatures, or None."""
+    centre = lambda pose, sense: np.array(
+        [pose[0] - sense * radius_m * math.sin(pose[2]), pose[1] + sense * radius_m * math.cos(pose[2])]
+    )
     way = centre(goal, last) - centre(start, first)
     apart, bearing = math.hypot(*way), math.atan2(way[1], way[0])
     if first != last:
@@ -32,8 +34,9 @@ def word(start, goal, radius_m, first, last):
 
 def triple(start, goal, radius_m, first):
     """Arc, opposite arc, arc of one radius [Dubins1957], or None where the circles are too far apart."""
-    centre = lambda pose: np.array([pose[0] - first * radius_m * math.sin(pose[2]),
-                                    pose[1] + first * radius_m * math.cos(pose[2])])
+    centre = lambda pose: np.array(
+        [pose[0] - first * radius_m * math.sin(pose[2]), pose[1] + first * radius_m * math.cos(pose[2])]
+    )
     a, b = centre(start), centre(goal)
     apart = math.hypot(*(b - a))
     if not 1e-6 < apart < 4 * radius_m:
@@ -42,9 +45,11 @@ def triple(start, goal, radius_m, first):
     out = bearing + first * lift  # from the first circle's centre to the middle one's
     back = bearing + math.pi - first * lift  # from the last circle's centre to the middle one's
     outward = lambda heading: heading - first * math.pi / 2
-    turns = [(first * (out - outward(start[2]))) % (2 * math.pi),
-             (-first * (back - out)) % (2 * math.pi),
-             (first * (outward(goal[2]) - back)) % (2 * math.pi)]
+    turns = [
+        (first * (out - outward(start[2]))) % (2 * math.pi),
+        (-first * (back - out)) % (2 * math.pi),
+        (first * (outward(goal[2]) - back)) % (2 * math.pi),
+    ]
     bends = (first, -first, first)
     return [(turn * radius_m, bend / radius_m) for turn, bend in zip(turns, bends) if turn > 1e-6]
 
@@ -66,7 +71,10 @@ def along_cubic(start, goal, tangent):
     ends = [np.array([pose[0], pose[1]]) for pose in (start, goal)]
     ways = [size * np.array([math.cos(pose[2]), math.sin(pose[2])]) for pose in (start, goal)]
     shape = (2 * t**3 - 3 * t**2 + 1, 3 * t**2 - 2 * t**3), (t**3 - 2 * t**2 + t, t**3 - t**2)
-    x, y = (sum(f * e[i] for f, e in zip(shape[0], ends)) + sum(f * w[i] for f, w in zip(shape[1], ways)) for i in (0, 1))
+    x, y = (
+        sum(f * e[i] for f, e in zip(shape[0], ends)) + sum(f * w[i] for f, w in zip(shape[1], ways))
+        for i in (0, 1)
+    )
     s = np.concatenate([[0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
     heading = np.unwrap(np.arctan2(np.gradient(y, t), np.gradient(x, t)))
     heading += start[2] - heading[0]
@@ -104,7 +112,9 @@ def guesses(robot, start, goal):
     for radius_m in dict.fromkeys(min(radius_m, limit_m) for radius_m in RADII_M):
         for first in (1, -1):
             for last in (1, -1):
-                curves[f"{'LR'[first < 0]}S{'LR'[last < 0]} {radius_m:.2f}"] = word(start, goal, radius_m, first, last)
+                curves[f"{'LR'[first < 0]}S{'LR'[last < 0]} {radius_m:.2f}"] = word(
+                    start, goal, radius_m, first, last
+                )
     wide_m = max(RADII_M[1], 0.3 * math.dist(start[:2], goal[:2]))
     for first in (1, -1):
         curves[f"{'LR'[first < 0]}{'RL'[first < 0]}{'LR'[first < 0]}"] = triple(start, goal, wide_m, first)

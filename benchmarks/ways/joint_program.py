@@ -1,15 +1,19 @@
-"""The least-energy curve and speed between two poses as one nonlinear program over arc length, for CasADi and Ipopt.
+"""The least-energy curve and speed between two poses as a nonlinear program, for CasADi and Ipopt.
 
-States at the nodes are the place (m), the heading (rad), u = half track * curvature (1) and b = speed squared
-(m^2/s^2). Curvature and b are linear in arc length on each part, so the acceleration along the path is constant
-there and the curve is a chain of clothoids. The length (m) is free; the shares of the parts in it are the mesh.
-The power model is that of [P1, Eqs. (19)-(28)], the square of the speed as a state that of [Verscheure2009], the
-program that of [Andersson2019] and the solver that of [WaechterBiegler2006]. Nothing here is shared with the
-planner, whose unknowns are directions of motion.
+Over arc length (Program), states at the nodes are the place (m), the heading (rad), u = half track *
+curvature (1) and b = speed squared (m^2/s^2). Curvature and b are linear in arc length on each part: the
+acceleration along the path is constant there and the curve is a chain of clothoids. The length (m) is free;
+the shares of the parts in it are the mesh. Over time (TimedProgram), speed (m/s) and yaw rate (rad/s) are
+linear on parts of equal length, and the duration (s) is free. The power model is that of [P1, Eqs.
+(19)-(28)], the square of the speed as a state that of [Verscheure2009], the programs use CasADi
+[Andersson2019], the solver is that of [WaechterBiegler2006]. Nothing here is shared with the planner, whose
+unknowns are directions of motion.
 
-What is left out: turns in place, cusps and driving backward (the speed is above 0 between the ends), limits of
-jerk, effects. Limits hold at the ends and the middle of each part.
+What is left out: cusps and driving backward (the speed is above 0 between the ends), turns in place (over
+time they are a limit), limits of jerk, of motors and of tires, effects, payload. Limits hold at the ends
+and the middle of each part.
 """
+
 import dataclasses
 import math
 
@@ -62,22 +66,32 @@ def read_robot(file):
     limits.update({key: motor[key] for key in ("max_current_A", "max_voltage_V") if key in motor})
     per = lambda key: tuple(a * n for a, n in zip(at[key], at["gear_ratio"]))
     return Robot(
-        name=data["name"], radius_m=body["wheel_radius_m"], half_track_m=half_m,
-        mass_kg=chassis_kg + 2 * wheel_kg, first_moment_kg_m=chassis_kg * offset_m,
-        yaw_inertia_kg_m2=inertia["chassis_yaw_inertia_kg_m2"] + chassis_kg * offset_m**2
-        + 2 * wheel_kg * half_m**2 + 2 * inertia["wheel_diameter_inertia_kg_m2"],
-        axle_inertia_kg_m2=inertia["wheel_axle_inertia_kg_m2"], ohm=at["resistance_ohm"],
+        name=data["name"],
+        radius_m=body["wheel_radius_m"],
+        half_track_m=half_m,
+        mass_kg=chassis_kg + 2 * wheel_kg,
+        first_moment_kg_m=chassis_kg * offset_m,
+        yaw_inertia_kg_m2=inertia["chassis_yaw_inertia_kg_m2"]
+        + chassis_kg * offset_m**2
+        + 2 * wheel_kg * half_m**2
+        + 2 * inertia["wheel_diameter_inertia_kg_m2"],
+        axle_inertia_kg_m2=inertia["wheel_axle_inertia_kg_m2"],
+        ohm=at["resistance_ohm"],
         amperes_per_Nm=tuple(1 / value for value in per("torque_constant_Nm_A")),
-        volts_per_speed_V_s=per("voltage_constant_V_s_rad"), viscous_Nm_s=at["viscous_friction_Nm_s_rad"],
-        friction_Nm=at["friction_torque_Nm"], standby_W=data["power"]["standby_W"],
+        volts_per_speed_V_s=per("voltage_constant_V_s_rad"),
+        viscous_Nm_s=at["viscous_friction_Nm_s_rad"],
+        friction_Nm=at["friction_torque_Nm"],
+        standby_W=data["power"]["standby_W"],
         recovered=data["power"]["regeneration_efficiency"],
-        shared_bus=data["power"].get("sharing", "wheel") == "bus", limits=limits)
+        shared_bus=data["power"].get("sharing", "wheel") == "bus",
+        limits=limits,
+    )
 
 
 def wheel_powers(robot, speed, acceleration, yaw_rate, yaw_acceleration, sign):
     """Electrical power (W), current (A) and voltage (V) of the left and the right wheel [P1, Eqs. (19)-(28)].
 
-    Numbers, arrays or symbols; `sign` gives the direction of a wheel from its share 1 -+ u of the body's speed.
+    Numbers, arrays or symbols; `sign` is the direction of each wheel, -1 to 1.
     """
     r, l = robot.radius_m, robot.half_track_m
     force = robot.mass_kg * acceleration - robot.first_moment_kg_m * yaw_rate * yaw_rate
@@ -86,8 +100,12 @@ def wheel_powers(robot, speed, acceleration, yaw_rate, yaw_acceleration, sign):
     for side, out in enumerate((-1, 1)):
         contact = force / 2 + out * moment / (2 * l)
         turning = (speed + out * l * yaw_rate) / r
-        torque = (r * contact + robot.axle_inertia_kg_m2 * (acceleration + out * l * yaw_acceleration) / r
-                  + robot.viscous_Nm_s[side] * turning + robot.friction_Nm[side] * sign[side])
+        torque = (
+            r * contact
+            + robot.axle_inertia_kg_m2 * (acceleration + out * l * yaw_acceleration) / r
+            + robot.viscous_Nm_s[side] * turning
+            + robot.friction_Nm[side] * sign[side]
+        )
         current = robot.amperes_per_Nm[side] * torque
         voltage = robot.ohm[side] * current + robot.volts_per_speed_V_s[side] * turning
         wheels.append((voltage * current, current, voltage, contact))
@@ -95,8 +113,7 @@ def wheel_powers(robot, speed, acceleration, yaw_rate, yaw_acceleration, sign):
 
 
 def drive_energy(robot, s, u, b):
-    """Energy (J) and time (s) of a drive with u and b linear between places s (m): friction's sign and the power
-    that braking loses are taken at each of many instants."""
+    """Energy (J) and time (s) of a drive with u and b linear between places s (m), at many instants."""
     share = (np.arange(48) + 0.5) / 48
     h, v0, v1 = np.diff(s)[:, None], np.sqrt(b[:-1])[:, None], np.sqrt(b[1:])[:, None]
     seconds = 2 * h / (v0 + v1)
@@ -106,8 +123,14 @@ def drive_energy(robot, s, u, b):
     slope = np.diff(u)[:, None] / robot.half_track_m / h
     a = (v1 - v0) / seconds
     share_of_wheel = bend * robot.half_track_m
-    wheels = wheel_powers(robot, speed, a, bend * speed, bend * a + slope * speed**2,
-                          (np.sign(1 - share_of_wheel), np.sign(1 + share_of_wheel)))
+    wheels = wheel_powers(
+        robot,
+        speed,
+        a,
+        bend * speed,
+        bend * a + slope * speed**2,
+        (np.sign(1 - share_of_wheel), np.sign(1 + share_of_wheel)),
+    )
     return supplied_J(robot, wheels, seconds), float(seconds.sum())
 
 
@@ -125,10 +148,15 @@ def motor_excess(robot, s, u, b):
     for here in (slice(None, -1), slice(1, None)):
         a, v = np.diff(b) / (2 * np.diff(s)), np.sqrt(b[here])
         bend, slope = u[here] / l, np.diff(u) / np.diff(s) / l
-        wheels = wheel_powers(robot, v, a, bend * v, bend * a + slope * v * v, (np.sign(1 - u[here]), np.sign(1 + u[here])))
+        wheels = wheel_powers(
+            robot, v, a, bend * v, bend * a + slope * v * v, (np.sign(1 - u[here]), np.sign(1 + u[here]))
+        )
         for _, current, voltage, contact in wheels:
-            for key, value in (("max_current_A", current), ("max_voltage_V", voltage),
-                               ("traction_coefficient", 2 * contact / (robot.mass_kg * GRAVITY_M_S2))):
+            for key, value in (
+                ("max_current_A", current),
+                ("max_voltage_V", voltage),
+                ("traction_coefficient", 2 * contact / (robot.mass_kg * GRAVITY_M_S2)),
+            ):
                 worst = max(worst, np.abs(value).max() / robot.limits.get(key, math.inf))
     return float(worst)
 
@@ -156,14 +184,21 @@ def part_function(ca, robot):
         rows.append((u * a) / l + slope * b)
     um, bm = (u0 + u1) / 2, (b0 + b1) / 2
     rows += [um * um * bm / l**2, um * bm / l, u1 * u1 * b1 / l**2, u1 * b1 / l]
-    return ca.Function("part", [b0, b1, u0, u1, h, width],
-                       [dt, ca.vertcat(*accounts), h * (u0 + u1) / (2 * l), ca.vertcat(*rows)])
+    return ca.Function(
+        "part",
+        [b0, b1, u0, u1, h, width],
+        [dt, ca.vertcat(*accounts), h * (u0 + u1) / (2 * l), ca.vertcat(*rows)],
+    )
 
 
 def row_bounds(robot):
     """Lower and upper bounds of the rows of part_function()."""
     at = lambda key: robot.limits.get(key, np.inf)
-    yaw, side, rate = at("yaw_acceleration_rad_s2"), at("lateral_acceleration_m_s2"), at("yaw_rate_rad_s") ** 2
+    yaw, side, rate = (
+        at("yaw_acceleration_rad_s2"),
+        at("lateral_acceleration_m_s2"),
+        at("yaw_rate_rad_s") ** 2,
+    )
     high = np.array([at("acceleration_m_s2"), yaw, yaw, rate, side, rate, side])
     low = np.array([-at("deceleration_m_s2"), -yaw, -yaw, -np.inf, -side, -np.inf, -side])
     return low, high
@@ -225,7 +260,7 @@ def timed(drive, half_track_m):
 
 
 def remeshed(drive, parts, half_track_m, smooth=0.15):
-    """The drive on nodes that share way, turn and time equally, so that sharp bends and slow ends have many."""
+    """The drive on nodes that share way, turn and time equally: sharp bends and slow ends have many."""
     h = np.diff(drive.s)
     seconds = 2 * h / np.maximum(np.sqrt(drive.b[:-1]) + np.sqrt(drive.b[1:]), 1e-3)
     turn = h * np.abs(drive.u[:-1] + drive.u[1:]) / 2 / half_track_m
@@ -246,7 +281,11 @@ class Chain:
 
         self.robot, self.parts, self.legs = robot, parts, legs
         self.accounts = 1 if robot.shared_bus else 2
-        shares, shape, pose = ca.MX.sym("shares", parts, legs), ca.MX.sym("shape", 2), ca.MX.sym("pose", 3, legs + 1)
+        shares, shape, pose = (
+            ca.MX.sym("shares", parts, legs),
+            ca.MX.sym("shape", 2),
+            ca.MX.sym("pose", 3, legs + 1),
+        )
         functions = self.functions(ca)
         unknowns, rows, total, before = [], [], 0, pose[2, 0]
         for leg in range(legs):
@@ -255,8 +294,12 @@ class Chain:
             rows += [g, first[:2] - pose[:2, leg], last[:2] - pose[:2, leg + 1], first[2] - before]
             before, total = last[2], total + cost
         rows.append(before - pose[2, legs])
-        nlp = {"x": ca.vertcat(*unknowns), "f": total, "g": ca.vertcat(*rows),
-               "p": ca.vertcat(ca.vec(shares), ca.vec(pose), shape)}
+        nlp = {
+            "x": ca.vertcat(*unknowns),
+            "f": total,
+            "g": ca.vertcat(*rows),
+            "p": ca.vertcat(ca.vec(shares), ca.vec(pose), shape),
+        }
         self.make = lambda options: ca.nlpsol("joint", "ipopt", nlp, options)
         self.bounds, self.solvers, self.iterations = self.all_bounds(), {}, 0
 
@@ -264,19 +307,38 @@ class Chain:
         low, high = self.row_bounds()
         n, ends, x_low, x_high = self.parts, np.zeros(5), *self.unknown_bounds()
         equal, clipped = np.zeros(3 * n), np.zeros(self.accounts * n)
-        g_low, g_high = [equal, clipped, np.tile(low, n), ends], [equal, clipped + np.inf, np.tile(high, n), ends]
+        g_low, g_high = [equal, clipped, np.tile(low, n), ends], [
+            equal,
+            clipped + np.inf,
+            np.tile(high, n),
+            ends,
+        ]
         again = lambda values: np.tile(np.concatenate(values), self.legs)
-        return {"lbg": np.append(again(g_low), 0), "ubg": np.append(again(g_high), 0),
-                "lbx": again(x_low), "ubx": again(x_high)}
+        return {
+            "lbg": np.append(again(g_low), 0),
+            "ubg": np.append(again(g_high), 0),
+            "lbx": again(x_low),
+            "ubx": again(x_high),
+        }
 
     def solver(self, tolerance, first_barrier):
         key = tolerance, first_barrier
         if key not in self.solvers:
-            self.solvers[key] = self.make({
-                "print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes",
-                "ipopt.tol": tolerance, "ipopt.max_iter": 300, "ipopt.mu_init": first_barrier,
-                "ipopt.acceptable_iter": 5, "ipopt.acceptable_tol": 10 * tolerance,
-                "ipopt.acceptable_obj_change_tol": 1e-6, "error_on_fail": False})
+            self.solvers[key] = self.make(
+                {
+                    "print_time": False,
+                    "show_eval_warnings": False,
+                    "ipopt.print_level": 0,
+                    "ipopt.sb": "yes",
+                    "ipopt.tol": tolerance,
+                    "ipopt.max_iter": 300,
+                    "ipopt.mu_init": first_barrier,
+                    "ipopt.acceptable_iter": 5,
+                    "ipopt.acceptable_tol": 10 * tolerance,
+                    "ipopt.acceptable_obj_change_tol": 1e-6,
+                    "error_on_fail": False,
+                }
+            )
         return self.solvers[key]
 
     def solve(self, guesses, poses, width=0.1, sharpest=SHARPEST, tolerance=1e-6, first_barrier=0.1):
@@ -287,15 +349,25 @@ class Chain:
         shares = [self.shares(guess) for guess in guesses]
         first = np.concatenate([part for guess in guesses for part in self.unknowns(guess)])
         solver = self.solver(tolerance, first_barrier)
-        found = solver(x0=first, p=np.concatenate([*shares, *np.array(poses, float), [width, sharpest]]), **self.bounds)
+        found = solver(
+            x0=first, p=np.concatenate([*shares, *np.array(poses, float), [width, sharpest]]), **self.bounds
+        )
         stats = solver.stats()
         self.iterations = stats["iter_count"]
         values = np.array(found["x"]).ravel().reshape(self.legs, -1)
-        return [self.drive(row, share) for row, share in zip(values, shares)], float(found["f"]), stats["success"]
+        return (
+            [self.drive(row, share) for row, share in zip(values, shares)],
+            float(found["f"]),
+            stats["success"],
+        )
 
     def cost(self, ca, energy, lost, dt):
         """Energy (J) of a leg: that of its parts, what braking loses of it, and standby."""
-        return ca.sum1(ca.sum2(energy)) + (1 - self.robot.recovered) * ca.sum1(ca.sum2(lost)) + self.robot.standby_W * dt
+        return (
+            ca.sum1(ca.sum2(energy))
+            + (1 - self.robot.recovered) * ca.sum1(ca.sum2(lost))
+            + self.robot.standby_W * dt
+        )
 
 
 class Program(Chain):
@@ -337,13 +409,13 @@ class Program(Chain):
     def drive(self, values, shares):
         n = self.parts
         state = values[: 4 * (n + 1)].reshape(n + 1, 4).T
-        b = np.concatenate([[0], values[4 * (n + 1): 4 * (n + 1) + n - 1], [0]])
+        b = np.concatenate([[0], values[4 * (n + 1) : 4 * (n + 1) + n - 1], [0]])
         return Drive(np.concatenate([[0], np.cumsum(shares)]) * values[-1], *state, np.maximum(b, 0))
 
 
 def timed_function(ca, robot):
-    """(heading, speed, yaw rate at both ends, seconds, [width of the sign in m/s, bound of u]) of a part in which
-    speed and yaw rate are linear in time -> energies per account, way in x and y and turn, limited rows."""
+    """(heading, speeds and yaw rates at both ends, seconds, [width of the sign in m/s, bound of u]) of a part
+    with speed and yaw rate linear in time -> energies per account, way in x and y and turn, limited rows."""
     heading, v0, v1, w0, w1, dt = (ca.SX.sym(name) for name in ("heading", "v0", "v1", "w0", "w1", "dt"))
     shape = ca.SX.sym("shape", 2)
     width, sharpest = shape[0], shape[1]
@@ -360,8 +432,11 @@ def timed_function(ca, robot):
     accounts = [energy[0] + energy[1]] if robot.shared_bus else energy
     middle = (v0 + v1) * (w0 + w1) / 4
     rows = [a, alpha, middle, v1 * w1, sharpest * v1 - l * w1, sharpest * v1 + l * w1]
-    return ca.Function("timed", [heading, v0, v1, w0, w1, dt, shape],
-                       [ca.vertcat(*accounts), ca.vertcat(x, y, dt * (w0 + w1) / 2), ca.vertcat(*rows)])
+    return ca.Function(
+        "timed",
+        [heading, v0, v1, w0, w1, dt, shape],
+        [ca.vertcat(*accounts), ca.vertcat(x, y, dt * (w0 + w1) / 2), ca.vertcat(*rows)],
+    )
 
 
 class TimedProgram(Chain):
@@ -385,7 +460,9 @@ class TimedProgram(Chain):
         lost, seconds = ca.MX.sym(f"lost{leg}", self.accounts, n), ca.MX.sym(f"seconds{leg}")
         rest = ca.DM.zeros(2, 1)
         rates, dt = ca.horzcat(rest, inner, rest), ca.repmat(seconds / n, 1, n)
-        energy, step, limited = part(state[2, :-1], rates[0, :-1], rates[0, 1:], rates[1, :-1], rates[1, 1:], dt, shape)
+        energy, step, limited = part(
+            state[2, :-1], rates[0, :-1], rates[0, 1:], rates[1, :-1], rates[1, 1:], dt, shape
+        )
         g = ca.vertcat(ca.vec(state[:, 1:] - state[:, :-1] - step), ca.vec(lost + energy), ca.vec(limited))
         unknowns = ca.vertcat(ca.vec(state), ca.vec(inner), ca.vec(lost), seconds)
         return unknowns, g, self.cost(ca, energy, lost, seconds), state[:, 0], state[:, -1]
@@ -403,18 +480,23 @@ class TimedProgram(Chain):
     def unknowns(self, guess):
         state = np.array([guess.x, guess.y, guess.heading])
         rates = np.array([guess.speed, guess.yaw_rate])[:, 1:-1]
-        return state.ravel(order="F"), rates.ravel(order="F"), np.full(self.accounts * self.parts, 0.01), [guess.t[-1]]
+        return (
+            state.ravel(order="F"),
+            rates.ravel(order="F"),
+            np.full(self.accounts * self.parts, 0.01),
+            [guess.t[-1]],
+        )
 
     def drive(self, values, shares):
         n = self.parts
         state = values[: 3 * (n + 1)].reshape(n + 1, 3).T
-        rates = values[3 * (n + 1): 3 * (n + 1) + 2 * (n - 1)].reshape(n - 1, 2).T
+        rates = values[3 * (n + 1) : 3 * (n + 1) + 2 * (n - 1)].reshape(n - 1, 2).T
         rest = np.zeros((2, 1))
         return TimedDrive(np.linspace(0, values[-1], n + 1), *state, *np.hstack([rest, rates, rest]))
 
 
 def timed_energy(robot, drive):
-    """Energy (J) of a drive whose speed and yaw rate are linear in time between its nodes, at many instants."""
+    """Energy (J) of a drive with speed and yaw rate linear between its nodes, summed over many instants."""
     share = (np.arange(48) + 0.5) / 48
     dt, l = np.diff(drive.t)[:, None], robot.half_track_m
     v, w = (values[:-1, None] + np.diff(values)[:, None] * share for values in (drive.speed, drive.yaw_rate))

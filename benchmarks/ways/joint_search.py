@@ -1,11 +1,15 @@
 """The best drives that the programs of joint_program.py find from many first drives, coarse to fine."""
+
 import itertools
 import math
 
 from joint_guesses import guesses
 from joint_program import Program, TimedProgram, drive_energy, remeshed, timed, timed_energy
 
-ARC_PARTS, ARC_WIDTH = 36, 0.1  # of the coarse program over arc length; width of the sign of friction, of the speed
+ARC_PARTS, ARC_WIDTH = (
+    36,
+    0.1,
+)  # of the coarse program over arc length; width of the sign of friction, of the speed
 PARTS, WIDTH_M_S = 60, 0.03  # of the program over time for each basin
 FINE_PARTS, FINE_WIDTH_M_S, FINE_BARRIER = 120, 0.003, 1e-3
 SAME = 1e-4  # closer energies are one basin
@@ -19,7 +23,7 @@ def as_end(goal, heading_rad):
 
 
 class Search:
-    """The programs of one robot, and the searches over first drives; it counts solves and those without an answer."""
+    """The programs of one robot and the searches over first drives; counts solves and failures."""
 
     def __init__(self, robot, sharpest, legs=1):
         self.robot, self.sharpest, self.legs = robot, sharpest, legs
@@ -29,17 +33,20 @@ class Search:
 
     def over_arc_length(self, first, poses):
         """A drive of the coarse program over arc length, or nothing."""
-        (found,), _, good = self.arc.solve([remeshed(first, ARC_PARTS, self.robot.half_track_m)], poses, ARC_WIDTH,
-                                           tolerance=1e-5)
+        (found,), _, good = self.arc.solve(
+            [remeshed(first, ARC_PARTS, self.robot.half_track_m)], poses, ARC_WIDTH, tolerance=1e-5
+        )
         self.arc_solves, self.arc_failed = self.arc_solves + 1, self.arc_failed + (not good)
         return found if good else None
 
     def over_time(self, drives, poses, fine=False, sharpest=None):
-        """(energy in J, drives, poses) of the program over time, or nothing; another bound of u where it is given."""
+        """(energy in J, drives, poses) of the program over time, or nothing; `sharpest`: a bound of u."""
         program = self.fine if fine else self.coarse
         firsts = [drive.on(program.parts) for drive in drives]
         settings = (FINE_WIDTH_M_S, FINE_BARRIER) if fine else (WIDTH_M_S, 0.1)
-        found, _, good = program.solve(firsts, poses, settings[0], sharpest or self.sharpest, first_barrier=settings[1])
+        found, _, good = program.solve(
+            firsts, poses, settings[0], sharpest or self.sharpest, first_barrier=settings[1]
+        )
         self.solves, self.failed = self.solves + 1, self.failed + (not good)
         return (sum(timed_energy(self.robot, drive) for drive in found), found, poses) if good else None
 
@@ -54,7 +61,7 @@ class Search:
         return min(refined, key=lambda row: row[0]), len(basins)
 
     def leg(self, start, goal):
-        """Between two poses (m, m, rad): (energy in J, drives, poses), the best energy (J) of the program over arc
+        """Between two poses (m, m, rad): (energy in J, drives, poses), the least energy (J) over arc
         length, first drives and basins."""
         rows, by_arc, half_m = [], [], self.robot.half_track_m
         firsts = guesses(self.robot, start, goal)
@@ -74,7 +81,7 @@ class Search:
         return (fine or middle or [math.nan])[0]
 
     def two_legs(self, start, stop, goal):
-        """Through a stop (m, m) of free heading to a pose: the best (energy, drives, poses), first drives, basins."""
+        """Through a stop (m, m) of free heading: the best (energy, drives, poses), first drives, basins."""
         rows, count = [], 0
         for k in range(STOP_HEADINGS):
             here = stop[0], stop[1], 0.3 + 2 * math.pi * k / STOP_HEADINGS
