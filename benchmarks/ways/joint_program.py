@@ -15,7 +15,6 @@ and the middle of each part.
 """
 
 import dataclasses
-import math
 
 import numpy as np
 import yaml
@@ -23,7 +22,6 @@ import yaml
 GAUSS = {n: np.polynomial.legendre.leggauss(n) for n in (3, 4, 5)}
 REST, LEAST_B = 1e-10, 1e-8  # m^2/s^2, at the ends and between: the square root has no derivative at 0
 SHARPEST = 1 / 0.12  # half track * curvature, in the program over arc length
-GRAVITY_M_S2 = 9.80665
 
 
 @dataclasses.dataclass
@@ -89,14 +87,14 @@ def read_robot(file):
 
 
 def wheel_powers(robot, speed, acceleration, yaw_rate, yaw_acceleration, sign):
-    """Electrical power (W), current (A) and voltage (V) of the left and the right wheel [P1, Eqs. (19)-(28)].
+    """Electrical power (W) of the left and the right wheel [P1, Eqs. (19)-(28)].
 
     Numbers, arrays or symbols; `sign` is the direction of each wheel, -1 to 1.
     """
     r, l = robot.radius_m, robot.half_track_m
     force = robot.mass_kg * acceleration - robot.first_moment_kg_m * yaw_rate * yaw_rate
     moment = robot.yaw_inertia_kg_m2 * yaw_acceleration + robot.first_moment_kg_m * speed * yaw_rate
-    wheels = []
+    powers = []
     for side, out in enumerate((-1, 1)):
         contact = force / 2 + out * moment / (2 * l)
         turning = (speed + out * l * yaw_rate) / r
@@ -108,8 +106,8 @@ def wheel_powers(robot, speed, acceleration, yaw_rate, yaw_acceleration, sign):
         )
         current = robot.amperes_per_Nm[side] * torque
         voltage = robot.ohm[side] * current + robot.volts_per_speed_V_s[side] * turning
-        wheels.append((voltage * current, current, voltage, contact))
-    return wheels
+        powers.append(voltage * current)
+    return powers
 
 
 def drive_energy(robot, s, u, b):
@@ -123,7 +121,7 @@ def drive_energy(robot, s, u, b):
     slope = np.diff(u)[:, None] / robot.half_track_m / h
     a = (v1 - v0) / seconds
     share_of_wheel = bend * robot.half_track_m
-    wheels = wheel_powers(
+    powers = wheel_powers(
         robot,
         speed,
         a,
@@ -131,34 +129,14 @@ def drive_energy(robot, s, u, b):
         bend * a + slope * speed**2,
         (np.sign(1 - share_of_wheel), np.sign(1 + share_of_wheel)),
     )
-    return supplied_J(robot, wheels, seconds), float(seconds.sum())
+    return supplied_J(robot, powers, seconds), float(seconds.sum())
 
 
-def supplied_J(robot, wheels, seconds):
+def supplied_J(robot, powers, seconds):
     """What the battery supplies over parts of `seconds` (a column) at equally spaced instants (rows)."""
-    powers = [wheel[0] for wheel in wheels]
     powers = [powers[0] + powers[1]] if robot.shared_bus else powers
     supplied = sum(np.maximum(power, robot.recovered * power) for power in powers) + robot.standby_W
     return float((supplied * seconds).sum() / supplied.shape[1])
-
-
-def motor_excess(robot, s, u, b):
-    """The greatest use of current, voltage and traction at the nodes, as a share of the limit."""
-    l, worst = robot.half_track_m, 0.0
-    for here in (slice(None, -1), slice(1, None)):
-        a, v = np.diff(b) / (2 * np.diff(s)), np.sqrt(b[here])
-        bend, slope = u[here] / l, np.diff(u) / np.diff(s) / l
-        wheels = wheel_powers(
-            robot, v, a, bend * v, bend * a + slope * v * v, (np.sign(1 - u[here]), np.sign(1 + u[here]))
-        )
-        for _, current, voltage, contact in wheels:
-            for key, value in (
-                ("max_current_A", current),
-                ("max_voltage_V", voltage),
-                ("traction_coefficient", 2 * contact / (robot.mass_kg * GRAVITY_M_S2)),
-            ):
-                worst = max(worst, np.abs(value).max() / robot.limits.get(key, math.inf))
-    return float(worst)
 
 
 def part_function(ca, robot):
@@ -176,8 +154,8 @@ def part_function(ca, robot):
         v = v0 + (v1 - v0) * share
         u = u0 + (u1 - u0) * share * (2 * v0 + (v1 - v0) * share) / (v0 + v1)
         sign = (ca.tanh((1 - u) / width), ca.tanh((1 + u) / width))
-        wheels = wheel_powers(robot, v, a, u / l * v, u / l * a + slope * v * v, sign)
-        energy = [sum_J + dt * weight / 2 * wheel[0] for sum_J, wheel in zip(energy, wheels)]
+        powers = wheel_powers(robot, v, a, u / l * v, u / l * a + slope * v * v, sign)
+        energy = [sum_J + dt * weight / 2 * power for sum_J, power in zip(energy, powers)]
     accounts = [energy[0] + energy[1]] if robot.shared_bus else energy
     rows = [a]
     for u, b in ((u0, b0), (u1, b1)):
@@ -425,8 +403,8 @@ def timed_function(ca, robot):
         share = (1 + node) / 2
         v, w = v0 + (v1 - v0) * share, w0 + (w1 - w0) * share
         sign = (ca.tanh((v - l * w) / width), ca.tanh((v + l * w) / width))
-        wheels = wheel_powers(robot, v, a, w, alpha, sign)
-        energy = [sum_J + dt * weight / 2 * wheel[0] for sum_J, wheel in zip(energy, wheels)]
+        powers = wheel_powers(robot, v, a, w, alpha, sign)
+        energy = [sum_J + dt * weight / 2 * power for sum_J, power in zip(energy, powers)]
         at = heading + dt * (w0 * share + (w1 - w0) * share**2 / 2)
         x, y = x + weight / 2 * dt * v * ca.cos(at), y + weight / 2 * dt * v * ca.sin(at)
     accounts = [energy[0] + energy[1]] if robot.shared_bus else energy
@@ -501,5 +479,5 @@ def timed_energy(robot, drive):
     dt, l = np.diff(drive.t)[:, None], robot.half_track_m
     v, w = (values[:-1, None] + np.diff(values)[:, None] * share for values in (drive.speed, drive.yaw_rate))
     a, alpha = np.diff(drive.speed)[:, None] / dt, np.diff(drive.yaw_rate)[:, None] / dt
-    wheels = wheel_powers(robot, v, a, w, alpha, (np.sign(v - l * w), np.sign(v + l * w)))
-    return supplied_J(robot, wheels, dt)
+    powers = wheel_powers(robot, v, a, w, alpha, (np.sign(v - l * w), np.sign(v + l * w)))
+    return supplied_J(robot, powers, dt)

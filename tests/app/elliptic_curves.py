@@ -150,8 +150,7 @@ def main():
         failed = failed or bad
         print(
             f"P {curve[0]}, psi {curve[1]} to {curve[2]}: {above:.3f} % above the closed form, "
-            f"{over:+.3f} % with ramps, {1000 * beside_m:.2f} mm beside it"
-            + (" FAILED" if bad else "")
+            f"{over:+.3f} % with ramps, {1000 * beside_m:.2f} mm beside it" + (" FAILED" if bad else "")
         )
     return 1 if failed else 0
 
