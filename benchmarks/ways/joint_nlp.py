@@ -17,6 +17,7 @@ import random
 import statistics
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import yaml
@@ -96,7 +97,7 @@ def robot_file(folder, name):
 
 def search(name, kind, first, last):
     """Adds the reference's drives of some legs to the data."""
-    robot = read_robot(robot_file(pathlib.Path("/tmp"), name))
+    robot = read_robot(robot_file(pathlib.Path(tempfile.mkdtemp()), name))
     seeker = Search(robot, SHARPEST, 2 if kind == "two_legs" else 1)
     for index in range(first, last + 1):
         start, goal, stop = drawn(kind, index)
