@@ -19,6 +19,7 @@ CURRENT_LAG_s = 0.0008  # of the current loop: 200 Hz
 LASH_rad = 0.0006  # half of the backlash at the wheel
 SLIP_PER_LOAD, RELAXATION_m = 25.0, 0.04  # slip stiffness over load; relaxation length
 LIDAR_LATENCY_s = 0.02
+TRIM_s = 0.3  # of the smoother behind the path follower
 DRIVER_LOSS = 0.002  # share of the motors' power that the driver's switching takes from the bus
 SHARE_ON_ROTOR = 0.6  # of dry and viscous friction; the rest brakes the rim
 OCV_SLOPE = 0.12  # relative fall of the open-circuit voltage over a full charge
@@ -113,7 +114,7 @@ class Batch:
         self.pose = np.tile(np.array([run["pose"] for run in self.runs], float).T, self.variants)
         self.heading_start = self.pose[2].copy()
         self.seen, self.snapshot = self.pose.copy(), self.pose.copy()
-        self.trim_v, self.trim_w = one(), one()
+        self.trim_v, self.trim_w, self.asked_v, self.asked_w = one(), one(), one(), one()
         self.charge_used_J = self.standby * self.start_s
         self.sums = {key: pair() for key in ("i", "V", "E")}
         self.sums.update({key: one() for key in ("I_bat", "U_bat", "E_bat")})
@@ -170,15 +171,22 @@ class Batch:
         turned = np.remainder(heading - self.seen[2] + np.pi, 2 * np.pi) - np.pi
         v, w = np.tile(self.v_ref[tick], self.variants), np.tile(self.w_ref[tick], self.variants)
         active = np.tile(self.tracked, self.variants) & ((np.abs(v) > 0.05) | (np.abs(w) > 0.05))
-        self.trim_v = np.where(active & (np.abs(v) > 0.05), np.clip(0.4 * along, -0.05, 0.05), 0.0)
-        self.trim_w = np.where(active, np.clip(1.5 * v * across + 0.8 * turned, -0.15, 0.15), 0.0)
+        self.asked_v = np.where(active & (np.abs(v) > 0.05), np.clip(0.4 * along, -0.05, 0.05), 0.0)
+        self.asked_w = np.where(active, np.clip(1.5 * v * across + 0.8 * turned, -0.15, 0.15), 0.0)
+
+    def smooth_trim(self, tick):
+        """Trims pass a smoother of 0.3 s, so that no step of a pose becomes a step of the speed; none at rest."""
+        self.trim_v += (self.asked_v - self.trim_v) * TICK_s / TRIM_s
+        self.trim_w += (self.asked_w - self.trim_w) * TICK_s / TRIM_s
+        rests = np.tile((self.v_ref[tick] == 0) & (self.w_ref[tick] == 0), self.variants)
+        for trim in (self.trim_v, self.trim_w, self.asked_v, self.asked_w):
+            trim[rests] = 0.0
 
     def slow(self, tick):
         """What changes slowly: commands, windings, tyres, floor, brake, open-circuit voltage."""
         self.localize(tick)
+        self.smooth_trim(tick)
         self.control(tick)
-        self.trim_v = np.where(np.tile(self.v_ref[tick] == 0, self.variants), 0.0, self.trim_v)
-        self.trim_w = np.where(np.tile((self.v_ref[tick] == 0) & (self.w_ref[tick] == 0), self.variants), 0.0, self.trim_w)
         warm = 1 + self.heat * (1 - np.exp(-(self.start_s + tick * TICK_s) / self.heat_s))
         weak = np.stack([1 + self.phase * (1 + np.cos(10 * self.n * self.q_m[0])), np.ones_like(self.phase)])
         self.R_now = self.R * warm * weak
