@@ -78,8 +78,8 @@ class Physics(unittest.TestCase):
             m, rng = machine(name), np.random.default_rng(4)
             runs = [run for kind in days.KINDS for run in days.day(f"{kind}:3", m["file"], rng)]
             _, record = driven(m, *runs)
-            measured, stated = (energy.reshape(len(days.KINDS), 3).sum(axis=1)
-                                for energy in (record["E"][-1].sum(axis=0), plain_balance(m, record)))
+            both = record["E"][-1].sum(axis=0), plain_balance(m, record)
+            measured, stated = (energy.reshape(len(days.KINDS), 3).sum(axis=1) for energy in both)
             for kind, unmodelled in zip(days.KINDS, measured / stated - 1):
                 print(f"{name} {kind}: {100 * unmodelled:+.2f} % unmodelled")
                 with self.subTest(robot=name, day=kind):
@@ -128,7 +128,8 @@ class Files(unittest.TestCase):
 
     def test_same_seed_same_bytes_other_seed_other_bytes(self):
         digest = lambda files: hashlib.sha256(b"".join(files[name] for name in sorted(files))).hexdigest()
-        first, again, other = (digest(self.generated(name, "--seed", seed, "--level", "1")) for name, seed in (("a", "5"), ("b", "5"), ("c", "6")))
+        day = lambda name, seed: digest(self.generated(name, "--seed", seed, "--level", "1"))
+        first, again, other = day("a", "5"), day("b", "5"), day("c", "6")
         self.assertEqual(first, again)
         self.assertNotEqual(first, other)
 

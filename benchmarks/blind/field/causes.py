@@ -31,8 +31,8 @@ CATALOG = {
 FOREIGN = {"loaded_teeth": ("loss_at_peak", 0.1, 0.6, 0), "tightening_hose": ("force_N", 0.1, 0.6, 0),
            "lagging_angle": ("lag_s", 0.15, 0.5, 0), "deflating_tyre": ("radius_fraction", 0.015, 0.06, 0),
            "late_brake": ("torque_Nm", 0.5, 4.0, 0), "weak_phase": ("fraction", 0.2, 1.5, 0)}
-# Constants of the laws that a null has not; per wheel where `machines.SIDED` would be.
-ABSENT = dict(roll=0.0, patch=0.0, box=(0.0, 0.0, 0.0, 0.0), stribeck=0.0, stribeck_w=1.0, drag=[0.0, 0.0], reverse=0.0, loss=0.0, scrub=0.0,
+# Constants of the laws that a null has not.
+ABSENT = dict(roll=0.0, patch=0.0, box=(0.0, 0.0, 0.0, 0.0), stribeck=0.0, stribeck_w=1.0, reverse=0.0, loss=0.0, scrub=0.0,
               air=0.0, grade=0.0, uphill=0.0, heat=0.0, heat_s=1.0, drop=0.0, teeth=0.0, hose=0.0, lag=0.0, flat=0.0, brake=0.0,
               phase=0.0, offset_A=[0.0, 0.0], gain=0.0, late_s=0.0)
 

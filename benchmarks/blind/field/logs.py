@@ -9,7 +9,7 @@ from physics import RECORD_STEPS, STEP_s
 
 RECORD_s = RECORD_STEPS * STEP_s
 POSE_NOISE = (0.004, 0.004, 0.002)  # m, m, rad: white, of each pose
-POSE_DRIFT = (0.004, 0.004, 0.001)  # the same, wandering over DRIFT_s; level 1
+POSE_DRIFT = (0.004, 0.004, 0.001)  # the same, wandering over DRIFT_s: level 1 alone
 DRIFT_s, GYRO_NOISE_rad_s = 3.0, 0.003
 COLUMNS = ("time_s", "wheel_speed_left_rad_s", "wheel_speed_right_rad_s", "motor_voltage_left_V", "motor_voltage_right_V",
            "motor_current_left_A", "motor_current_right_A", "battery_voltage_V", "battery_current_A", "gyro_yaw_rate_rad_s", "position_x_m",
@@ -52,8 +52,7 @@ def channels(batch, record, period):
     slow_s = batch.file["slow_s"]
     held = np.floor(times / slow_s + 1e-9) * slow_s
     speed = means(record["q"], times, period)
-    late, gain = batch.machines[0]["late_s"], batch.per("gain")
-    electric = times - late if True else times
+    electric, gain = times - batch.machines[0]["late_s"], batch.per("gain")
     V, i = means(record["V"], electric, period), means(record["i"], electric, period) * (1 + gain) + batch.per("offset_A")
     seen = record["seen"][np.round(times / RECORD_s).astype(int)]
     shape = speed[:, 0].shape

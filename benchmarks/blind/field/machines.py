@@ -6,7 +6,8 @@ import copy
 
 GRAVITY_m_s2 = 9.80665
 # Constants of a robot file in SI units (K: torque constant times gear ratio, at the wheel, in Nm/A).
-# slip_per_load: slip stiffness of a tyre over its load; relax_m: relaxation length; lash_rad: half of the backlash.
+# T: friction left and right; v, a, w: usual speed, acceleration and yaw rate; load: greatest payload; slow_s, lidar_s, log_s:
+# periods of the battery's monitor, the localizer and the log.
 ROBOTS = {
     "courier": dict(r=0.075, l=0.15, d=0.01, m_c=8.6, m_w=0.7, I_c=0.16, k_p=0.02, d_p=0.0, I_a=0.0125, I_w=0.0022, I_d=0.0011, n=10.0,
                     K=0.5, R=1.6, nu=0.004, T=(0.085, 0.092), U_max=24.0, i_max=6.0, standby=6.0, eta=0.0, U=25.6, R_b=0.06, Wh=150.0,

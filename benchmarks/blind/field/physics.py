@@ -47,7 +47,7 @@ class Batch:
         return np.tile(np.array(values, float), self.variants)
 
     def constants(self):
-        for key in ("r", "K", "R", "nu", "T", "drag"):
+        for key in ("r", "K", "R", "nu", "T"):
             setattr(self, key, self.per(key))
         for key in ("l", "roll", "patch", "stribeck", "stribeck_w", "reverse", "loss", "scrub", "air", "grade", "uphill", "heat", "heat_s", "drop",
                     "teeth", "hose", "lag", "flat", "brake", "phase", "standby", "eta", "R_b", "U", "n", "Wh"):
