@@ -28,7 +28,7 @@ CATALOG = {
     "current_sensor_offset": ("offset_A", 0.06, 0.6, 0.5), "current_sensor_gain": ("fraction", 0.02, 0.15, 0.5),
     "time_misalignment": ("delay_s", 0.015, 0.2, 0)}
 # Foreign causes: (parameter of the label, smallest, largest, 0).
-FOREIGN = {"loaded_teeth": ("loss_at_peak", 0.1, 0.6, 0), "tightening_hose": ("force_N", 0.1, 0.6, 0),
+FOREIGN = {"loaded_teeth": ("loss_at_peak", 0.1, 0.45, 0), "tightening_hose": ("force_N", 0.1, 0.6, 0),
            "lagging_angle": ("lag_s", 0.15, 0.5, 0), "deflating_tyre": ("radius_fraction", 0.015, 0.06, 0),
            "late_brake": ("torque_Nm", 0.5, 4.0, 0), "weak_phase": ("fraction", 0.2, 1.5, 0)}
 # Constants of the laws that a null has not.

@@ -207,7 +207,8 @@ class Batch:
         limit = SHARE_ON_ROTOR * self.T + self.loss * np.abs(torque)
         if self.teeth.any():
             peak = self.J_file * self.file["a"] / self.file["r"][0] + self.file["T"][0]
-            limit = limit + self.teeth * torque**2 / peak * (1 + 0.8 * np.sin(23 * self.q_m))
+            part = self.teeth * np.minimum(1.0, np.abs(torque) / peak)
+            limit = limit + part * np.abs(torque) * (1 + 0.5 * np.sin(23 * self.q_m))
         return limit
 
     def rim_limits(self):
