@@ -53,7 +53,8 @@ def main():
     parser = argparse.ArgumentParser(prog="benchmarks/blind/run")
     parser.add_argument("stage", nargs="?", default="all", choices=["all", "seal", "diagnose", "score", "again"])
     parser.add_argument("--short", action="store_true", help="60 cases, mechanics only, nothing is sealed")
-    parser.add_argument("--name", default="full", choices=["full", "mujoco"], help="mujoco: cases that MuJoCo drives")
+    parser.add_argument("--name", default="full", choices=["full", "mujoco", "field"],
+                        help="mujoco: cases that MuJoCo drives; field: those of the field generator")
     parser.add_argument("--cases", type=int, default=0, help="seal, or ask again, the first N cases only (any prefix keeps the bins' proportions)")
     parser.add_argument("--minutes", type=float, default=55, help="stop diagnosing after this long; call again to go on")
     parser.add_argument("--partial", action="store_true", help="score although cases are not diagnosed yet")
@@ -82,7 +83,7 @@ def main():
         if left and arguments.stage == "all":
             return 0
     if arguments.stage in ("all", "score"):
-        report.score(frozen, name, workspace.RESULTS, True, "blind_mujoco" if name == "mujoco" else "blind", arguments.partial)
+        report.score(frozen, name, workspace.RESULTS, True, "blind" if name == "full" else f"blind_{name}", arguments.partial)
     return 0
 
 

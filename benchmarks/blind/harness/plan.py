@@ -15,6 +15,11 @@ MIXED = {"pair": 2, "triple": 3, "removed": 1, "battery": 1, "long": 1}  # bins 
 MUJOCO, MUJOCO_EFFECTS = {"single": 6, "null": 40}, (
     "coulomb_friction", "current_sensor_offset", "dragging_wheel", "floor_slope", "payload_mass_error", "rolling_resistance", "track_width_error",
     "viscous_friction", "wheel_radius_error", "winding_resistance_error")
+# What the field generator has (../field/causes.py, ../field/days.py); runs of a day as users drive it.
+FIELD_ROBOTS = ("courier", "porter", "hauler")
+FIELD_DAYS = ("testday", "missions", "out_and_back", "shuttle", "eights", "joystick", "scurve")
+FIELD_RUNS = [(18, 0.5), (12, 0.35), (6, 0.15)]
+FIELD = {"single": 4, "null": 63, "foreign": 6}
 SMALL_MEMBER = 1 / 3  # share of the pairs with a small second effect
 
 
@@ -74,6 +79,22 @@ def mujoco(frozen):
     return [{**entry, "level": 0, "physics": "blind_mujoco"} for entry in plan(f"mujoco:{frozen}", MUJOCO_EFFECTS, (), MUJOCO)]
 
 
+def field(frozen):
+    """Cases of the field generator, which is its own oracle: nulls go round every kind of day with every robot."""
+    entries = plan(f"field:{frozen}", *workspace.effect_names("blind_field"), FIELD)
+    nulls = 0
+    for entry in entries:
+        rng = random.Random(digest("field", frozen, entry["seed"]))
+        kind, robot = rng.choice(FIELD_DAYS), rng.choice(FIELD_ROBOTS)
+        if not entry["effects"]:
+            kind, robot = FIELD_DAYS[nulls % len(FIELD_DAYS)], FIELD_ROBOTS[nulls // len(FIELD_DAYS) % len(FIELD_ROBOTS)]
+            nulls += 1
+        entry.update(robot=robot, protocol=f"{kind}:{weighted(rng, FIELD_RUNS)}", physics="blind_field", oracle="blind_field")
+    return entries
+
+
 def campaign(name, frozen):
     """The cases of a campaign by its name."""
+    if name == "field":
+        return field(frozen)
     return mujoco(frozen) if name == "mujoco" else plan(frozen, *workspace.effect_names(), {"full": FULL, "short": SHORT}[name])

@@ -83,6 +83,12 @@ def confusion_lines(table):
     return lines
 
 
+def robots_of(cases):
+    """The robots of the cases; those of the plant in its order, others by name."""
+    known, there = [name for name, _ in plan.ROBOTS], {l["robot"] for l, _ in cases}
+    return [name for name in known if name in there] + sorted(there - set(known))
+
+
 def split_table(cases):
     """The first measures by level, robot and protocol: where it is weak."""
     wanted = {"top-1": "top-1, single detectable effect", "group, material": "inside the named group, detectable and material",
@@ -91,8 +97,8 @@ def split_table(cases):
               "foreign says none fits": "foreign effect: says none fits (unexplained or partly)"}
     lines = ["| part | " + " | ".join(wanted) + " |", "|---" * (len(wanted) + 1) + "|"]
     parts = [(f"level {v}", lambda l, v=v: l["level"] == v) for v in (0, 1)]
-    parts += [(v, lambda l, v=v: l["robot"] == v) for v, _ in plan.ROBOTS]
-    parts += [(f"{v} runs", lambda l, v=v: l["runs"] == v) for v in (24, 12, 6)]
+    parts += [(v, lambda l, v=v: l["robot"] == v) for v in robots_of(cases)]
+    parts += [(f"{v} runs", lambda l, v=v: l["runs"] == v) for v in sorted({l["runs"] for l, _ in cases}, reverse=True)]
     for name, inside in parts:
         rates = {r.name: r for r in scorecard.rates([(l, a) for l, a in cases if inside(l)])}
         shown = [rates[title] for title in wanted.values()]
@@ -148,6 +154,9 @@ def figures(cases, power, confusion, reliability):
 TITLE = "Blind benchmark of the diagnosis"
 CAMPAIGNS = {  # options of the command, title, what moves the robot where it is not the plant
     "full": ("", TITLE, ""), "short": (" --short", TITLE, ""),
+    "field": (" --name field", "Blind benchmark on days as users drive them",
+              "The field generator moves the robots: rotor and rim with backlash between them, tyres with a relaxation length, a current loop, a speed controller on encoder counts, a lidar localizer "
+              "(`benchmarks/blind/README.md`). What is detectable, material, and where a gap lies, is its own oracle's word."),
     "mujoco": (" --name mujoco", "Blind benchmark on robots that MuJoCo drives",
                "MuJoCo moves the robots: rigid bodies in space, contacts, joint friction, implicit integration; the forms of the effects stand in `benchmarks/blind/README.md`. "
                "Machines, sizes, protocols and noise are drawn as in the [large campaign](blind.md). What is detectable, material, separable, and where a gap lies, is the plant's word on the same case.")}

@@ -22,14 +22,19 @@ def plant_command(case, program="blind_plant"):
 
 
 def physics_of(case):
-    """The program that moves the robot; the oracle's word is always the plant's."""
+    """The program that moves the robot."""
     return case.get("physics", "blind_plant")
+
+
+def oracle_of(case):
+    """The program whose word it is what a case shows: the plant's, except where a generator has an oracle of its own."""
+    return case.get("oracle", "blind_plant")
 
 
 def label_of(case):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "label.json")
-        subprocess.run(plant_command(case) + ["--label", path, "--observer" if case["bin"] in ("single", "removed") else "--oracle"], check=True)
+        subprocess.run(plant_command(case, oracle_of(case)) + ["--label", path, "--observer" if case["bin"] in ("single", "removed") else "--oracle"], check=True)
         with open(path) as file:
             text = file.read()
     try:
@@ -52,7 +57,7 @@ def seal(name, limit, jobs):
     if manifest.exists():
         sys.exit(f"{manifest.name} exists: this commit is sealed already")
     cases = plan.campaign(name, frozen)[: limit or None]
-    for physics in {physics_of(case) for case in cases}:
+    for physics in {program(case) for case in cases for program in (physics_of, oracle_of)}:
         workspace.program(physics)
     folder.mkdir(parents=True, mode=0o700, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:

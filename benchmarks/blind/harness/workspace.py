@@ -10,7 +10,12 @@ sys.path.insert(0, str(ROOT / "benchmarks" / "spoilt"))  # the module spoils
 UNFROZEN = ["benchmarks/results"]  # what may change after the freeze: results and manifests alone
 
 
+IN_PYTHON = {"blind_field": ROOT / "benchmarks" / "blind" / "field" / "blind_field"}  # not built
+
+
 def program(name):
+    if name in IN_PYTHON:
+        return str(IN_PYTHON[name])
     path = pathlib.Path(os.environ.get("JOULEPATH_BIN", ROOT / "build" / "release" / "bin")) / name
     if not path.exists():
         sys.exit(f"{path} is missing: {'apt install libmujoco-dev, configure and build again' if name == 'blind_mujoco' else 'run ./dev build first'}")
@@ -42,7 +47,7 @@ def manifest_path(frozen, name):
     return RESULTS / f"blind_manifest_{name}_{frozen[:12]}.json"
 
 
-def effect_names():
-    lines = subprocess.run([program("blind_plant"), "--list"], check=True, capture_output=True, text=True).stdout.split("\n")
+def effect_names(generator="blind_plant"):
+    lines = subprocess.run([program(generator), "--list"], check=True, capture_output=True, text=True).stdout.split("\n")
     pairs = [line.split() for line in lines if line]
     return [n for k, n in pairs if k == "catalog"], [n for k, n in pairs if k == "foreign"]
