@@ -8,5 +8,4 @@ extern const std::string_view robot_schemas;
 extern const std::string_view mission_schemas;
 extern const std::string_view file_schemas;
 extern const std::string_view result_schemas;
-extern const std::string_view physical_bounds;
 }  // namespace joulepath::embedded
