@@ -4,8 +4,6 @@
 
 /// The files of scenarios/schemas/, embedded by the build.
 namespace joulepath::embedded {
-extern const std::string_view robot_schemas;
-extern const std::string_view mission_schemas;
 extern const std::string_view file_schemas;
 extern const std::string_view result_schemas;
 }  // namespace joulepath::embedded
