@@ -71,6 +71,7 @@ class JointNewton::Steps {
 
   void lay_out();
   void begin_speed();
+  double cost_J(const VectorXd& squares) const;
   double cap(const SpeedPart& part, double f) const;
   void begin_rows();
   template <class Each>
@@ -150,6 +151,7 @@ JointNewton::Steps::Steps(const Start& start, double gap, const VectorXd& square
     reach_targets(program_, p_, 8);
     begin_speed();
   }
+  most_square_ = b_.maxCoeff();
   clearance_.lay_out(p_);
   begin_rows();
   recent_J_.fill(kNoLimit);
@@ -209,6 +211,23 @@ void JointNewton::Steps::begin_speed() {
   for (Index k = count; k-- > 0;) b_[k] = std::min(b_[k], b_[k + 1] + gain[k]);
   for (Index k = 0; k < count; ++k)
     if (parts_[static_cast<std::size_t>(k)].b1 >= 0) b_[k + 1] = std::max(b_[k + 1], 1e-4 * most_square_);
+  // Limits may be far above the cheapest speed: from there the method does not find the way to it.
+  for (double before_J = cost_J(b_), slower_J;; before_J = slower_J) {
+    slower_J = cost_J(0.5 * b_);
+    if (!(slower_J < before_J)) break;
+    b_ *= 0.5;
+  }
+}
+
+/// Cost of the present path at these squares of the rate, recovery left out.
+double JointNewton::Steps::cost_J(const VectorXd& squares) const {
+  double cost_J = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const auto v = values_of<double>(k, squares, p_);
+    cost_J += law(parts_[k]).price_W * v.duration_s;
+    for (const double E : v.energy_J) cost_J += std::max(E, 0.0) / scale_;
+  }
+  return cost_J;
 }
 
 template <class Real>
@@ -257,16 +276,7 @@ void JointNewton::Steps::for_bounds(const VectorXd& squares, const VectorXd& par
 }
 
 void JointNewton::Steps::begin_rows() {
-  const double at_start = [&] {
-    double cost = 0;
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      const auto v = values_of<double>(k, b_, p_);
-      cost += law(parts_[k]).price_W * v.duration_s;
-      for (const double E : v.energy_J) cost += std::max(E, 0.0);
-    }
-    return cost;
-  }();
-  scale_ = kCostScale / at_start;
+  scale_ = kCostScale / cost_J(b_);
   const Values v = values(b_, p_);
   pairs_ = parts_.size() * (kSegmentRows + 4) + v.clearance.size();
   bounds_.resize(static_cast<std::size_t>(free_ + 3 * program_.parameters()));

@@ -19,7 +19,7 @@ import pathlib
 import subprocess
 import sys
 
-HALF_TRACK_M, RADIUS_M, STANDBY_W, VISCOUS_NM_S, ACCELERATION_M_S2, LEAST_KG = 0.2, 0.1, 10.0, 1.0, 1.0, 1e-3
+HALF_TRACK_M, RADIUS_M, STANDBY_W, VISCOUS_NM_S, ACCELERATION_M_S2, LEAST_KG = 0.2, 0.1, 10.0, 1.0, 4.0, 1e-3
 WATTS_PER_SPEED = (
     2 * VISCOUS_NM_S * (1 + 1e-6 * VISCOUS_NM_S) / RADIUS_M**2
 )  # c: friction and 1e-6 ohm, both wheels
@@ -60,7 +60,7 @@ CURVES = (
     (1.3, 0.5, 2.5),
     (1.05, 0.3, 2.8),
 )  # P, psi, psi
-LEAST_PERCENT, MOST_PERCENT, MOST_M = -0.35, 0.6, 0.008  # above the closed form with ramps, beside its curve
+LEAST_PERCENT, MOST_PERCENT, MOST_M = -0.05, 0.25, 0.006  # above the closed form with ramps, beside its curve
 FLOOR = """image: floor.pgm
 mode: trinary
 resolution: 0.1
