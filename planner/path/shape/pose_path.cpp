@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -159,6 +160,22 @@ WaypointPath along_places(const std::vector<Pose>& poses, double tolerance_m) {
   return curve_through(points_m, tolerance_m);
 }
 
+/// The curve through the places of poses that no curve follows; the headings at both ends are kept by turns.
+WaypointPath between_headings(const std::vector<Pose>& poses, double tolerance_m) {
+  WaypointPath along = along_places(poses, tolerance_m);
+  if (along.defect || along.path.pieces.empty()) return along;
+  Path path;
+  const auto turn_to = [&](double from_rad, double heading_rad) {
+    const double turned_rad = wrapped_angle_rad(heading_rad - from_rad);
+    if (std::abs(turned_rad) > kAlongMotion_rad) append_turn(path, poses.front(), heading_rad, turned_rad);
+  };
+  turn_to(poses.front().heading_rad, along.path.start().heading_rad);
+  std::move(along.path.pieces.begin(), along.path.pieces.end(), std::back_inserter(path.pieces));
+  turn_to(path.end().heading_rad, poses.back().heading_rad);
+  along.path = std::move(path);
+  return along;
+}
+
 /// Curves along the stretches between places where the robot stands, and the turns there; nothing where a
 /// stretch has no curve.
 std::optional<Path> joined(const std::vector<Pose>& poses, bool exact, double tolerance_m) {
@@ -201,7 +218,7 @@ WaypointPath path_along_poses(const std::vector<Pose>& poses, double tolerance_m
   std::optional<Path> smooth = joined(poses, false, tolerance_m), exact;
   if (tolerance_m <= kWaypointTolerance_m) exact = joined(poses, true, tolerance_m);
   if (exact && smooth && bending(*exact) > kRougher * bending(*smooth) + kRougher_per_m) exact.reset();
-  if (!exact && !smooth) return along_places(poses, tolerance_m);
+  if (!exact && !smooth) return between_headings(poses, tolerance_m);
   WaypointPath along{.path = exact ? std::move(*exact) : std::move(*smooth), .exact = exact.has_value()};
   if (along.path.pieces.empty())
     along.defect = WaypointDefect{0, false, "poses that stand still", "poses that move or turn"};

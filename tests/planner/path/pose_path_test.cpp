@@ -55,6 +55,33 @@ std::vector<Pose> poses_along(const Path& path, double step) {
   return poses;
 }
 
+/// Too sharp for a spline: an arc of 0.2 mm, nearly a turn in place, at either end of a way of 1 m.
+TEST(PosePath, KeepsTheHeadingsAtTheEndsOfAWayThatNoCurveFollows) {
+  std::vector<Pose> poses;
+  constexpr double kRadius_m = 2e-4, kTurn_rad = 1.4;
+  for (int k = 0; k <= 24; ++k) {
+    const double turned = kTurn_rad * k / 24;
+    poses.push_back({kRadius_m * std::sin(turned), kRadius_m * (1 - std::cos(turned)), turned});
+  }
+  const Pose out = poses.back();
+  for (int k = 1; k <= 100; ++k)
+    poses.push_back(
+        {out.x_m + 0.01 * k * std::cos(kTurn_rad), out.y_m + 0.01 * k * std::sin(kTurn_rad), kTurn_rad});
+  const Pose in = poses.back();
+  for (int k = 1; k <= 24; ++k) {
+    const double turned = kTurn_rad * k / 24, heading = kTurn_rad - turned;
+    poses.push_back({in.x_m + kRadius_m * (std::cos(heading - std::numbers::pi / 2) -
+                                           std::cos(kTurn_rad - std::numbers::pi / 2)),
+                     in.y_m + kRadius_m * (std::sin(heading - std::numbers::pi / 2) -
+                                           std::sin(kTurn_rad - std::numbers::pi / 2)),
+                     heading});
+  }
+  const Path path = path_along_poses(poses, kWaypointTolerance_m).path;
+  ASSERT_FALSE(path.pieces.empty());
+  EXPECT_NEAR(wrapped_angle_rad(path.start().heading_rad), 0, 0.1);
+  EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad), 0, 0.1);
+}
+
 void expect_same_drive(const Path& found, const Path& drawn, double heading_rad) {
   ASSERT_EQ(found.pieces.size(), drawn.pieces.size());
   for (std::size_t k = 0; k < drawn.pieces.size(); ++k) {
