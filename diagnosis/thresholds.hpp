@@ -256,7 +256,9 @@ inline constexpr double kRegularReadings = 0.8;
 /// Half of a channel's changes over the lower tenth: of steps to which it is rounded less, since they are all
 /// alike. Chosen: noise has a factor of 5.
 inline constexpr double kOfOneStep = 1.5;
-/// Readings of a pose so many 1-sigma widths of the smoothing apart are seen one by one. Chosen (0500).
+/// Readings so many 1-sigma widths of the smoothing apart are seen one by one: those of a pose where they are,
+/// those of a battery where what they read is steady, since a delay to second order no longer describes them.
+/// Chosen (0500, 0501).
 inline constexpr double kBlurredReadings = 2;
 /// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
 inline constexpr double kResolution = 5e-4;
@@ -272,9 +274,6 @@ inline constexpr double kStampFraction = 0.06;
 /// Delay of another instrument than the motors' driver over the period of its readings, 1-sigma. Derived:
 /// half of it lies between a reading at the period's end and its mean (0501).
 inline constexpr double kReadingDelay = 0.5;
-/// Readings further apart count where what they read is steady: between them a motion may change that a
-/// delay to first order does not describe. Chosen.
-inline constexpr double kSlowReading_s = 0.3;
 /// Greatest change of a steady power over its root mean square. Chosen: a delay describes it.
 inline constexpr double kSteadyPower = 0.02;
 /// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
@@ -313,7 +312,7 @@ inline constexpr double kLargestPart = 2.0;
 inline constexpr int kMostEffects = 4;
 /// Unknown terms of a set. Chosen.
 inline constexpr int kMostUnknowns = 2;
-/// Effects and unknown terms of a set. Chosen.
+/// Effects and unknown terms of a set, and effects of a group that is named. Chosen.
 inline constexpr int kMostMembers = 5;
 /// Sets kept at each size of the search. Chosen.
 inline constexpr int kBeamWidth = 14;

@@ -47,18 +47,25 @@ double correlation(const Samples& a, const Samples& b, int lag) {
   return va > 0 && vb > 0 ? (ab - sum_a * sum_b / count) / std::sqrt(va * vb) : 0.0;
 }
 
-/// By how much the motor's voltage is logged after (positive) or before its wheel's speed; 0: in time.
+/// By how much the motor's voltage is logged after (positive) or before its wheel's speed; 0: in time. A
+/// heavy robot's voltage leads its speed, and equal drives follow themselves: a shift that is no delay is
+/// compared with the best short one.
 double lag_s(const Run& run, Side side) {
   const Samples voltage = at_equal_steps(run.log.time_s, run.log.motor_voltage_V[side]);
   const Samples speed = at_equal_steps(run.log.time_s, run.log.wheel_speed_rad_s[side]);
   if (voltage.empty() || speed.empty()) return 0.0;
   const int most = std::min(static_cast<int>(kLongestLag_s / kLagStep_s), static_cast<int>(speed.size()) / 4);
-  int best = 0;
-  for (int lag = -most; lag <= most; ++lag)
-    if (correlation(speed, voltage, lag) > correlation(speed, voltage, best)) best = lag;
-  const double found = correlation(speed, voltage, best);
-  const bool clear = found > kFollowsWell && found > correlation(speed, voltage, 0) + kClearlyLate;
-  return clear && std::abs(best * kLagStep_s) > kLeastLag_s ? best * kLagStep_s : 0.0;
+  const int shortest = std::min(most, static_cast<int>(kLeastLag_s / kLagStep_s));
+  const auto best_within = [&](int reach) {
+    int best = 0;
+    for (int lag = -reach; lag <= reach; ++lag)
+      if (correlation(speed, voltage, lag) > correlation(speed, voltage, best)) best = lag;
+    return best;
+  };
+  const int best = best_within(most);
+  const double found = correlation(speed, voltage, best),
+               in_time = correlation(speed, voltage, best_within(shortest));
+  return found > kFollowsWell && found > in_time + kClearlyLate ? best * kLagStep_s : 0.0;
 }
 
 /// Whether the current is never clearly negative although the wheel turns backward for a while.

@@ -414,7 +414,7 @@ std::vector<bool> rows_of_readings(const Thinner& thinner, const Samples& channe
 }
 
 void fill_battery(RunSignals& signals, const Thinner& thinner, const Trajectory& log) {
-  if (signals.reading_period_s.battery_s > kSlowReading_s)
+  if (signals.reading_period_s.battery_s > kBlurredReadings * signals.kernel_sigma_s)
     signals.battery_read = rows_of_readings(thinner, log.battery_current_A);
   signals.battery_voltage_V = thinner.smooth(thinner.reading(log.battery_voltage_V));
   signals.battery_current_A = thinner.smooth(thinner.reading(log.battery_current_A));

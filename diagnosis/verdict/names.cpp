@@ -227,7 +227,8 @@ Names choose_names(const Examination& x) {
     std::set<std::string> group{label};
     if (const auto others = names.stand_ins.find(label); others != names.stand_ins.end())
       group.insert(others->second.begin(), others->second.end());
-    if (inclusion.of_any(group) < kLeastProbabilityNamed) continue;
+    // A group of half the catalog tells nothing apart.
+    if (group.size() > kMostMembers || inclusion.of_any(group) < kLeastProbabilityNamed) continue;
     names.named.push_back(effect);
     names.sizes.of_names.push_back({label, probability_of(names, effect),
                                     evidence_for(x.id.equations, x.id.explanations, label),

@@ -216,6 +216,25 @@ TEST(MotorNotes, OfUnsignedCurrentsAndOfAnotherClockAndOfNothingElse) {
       << motor_notes(late)[0];
 }
 
+/// The voltage of a heavy robot leads its speed, and is as much like that of the drive before it.
+TEST(MotorNotes, OfEqualDrivesAreNone) {
+  joulepath::Run run{.name = "four drives"};
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.04 * i, phase = std::fmod(t, 4.0), peak = 4.0;
+    const double acceleration = phase < 1.6 ? peak / 1.6 : phase < 3.2 ? -peak / 1.6 : 0.0,
+                 speed = phase < 1.6 ? acceleration * phase : phase < 3.2 ? peak * (3.2 - phase) / 1.6 : 0.0;
+    run.log.time_s.push_back(t);
+    for (const Side side : kSides) {
+      run.log.wheel_speed_rad_s[side].push_back(speed);
+      run.log.motor_voltage_V[side].push_back(2 * speed + 0.8 * acceleration);
+    }
+  }
+  Dataset dataset;
+  dataset.runs = {run};
+  const std::vector<std::string> notes = motor_notes(dataset);
+  EXPECT_TRUE(notes.empty()) << notes.front();
+}
+
 /// The pose that the wheels' speeds add up to; `start`: the share of the speed at the start of each step, the
 /// rest is that at its end.
 void replace_by_odometry(joulepath::Run& run, const Geometry& geometry, double start) {
