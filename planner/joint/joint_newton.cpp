@@ -211,11 +211,15 @@ void JointNewton::Steps::begin_speed() {
   for (Index k = count; k-- > 0;) b_[k] = std::min(b_[k], b_[k + 1] + gain[k]);
   for (Index k = 0; k < count; ++k)
     if (parts_[static_cast<std::size_t>(k)].b1 >= 0) b_[k + 1] = std::max(b_[k + 1], 1e-4 * most_square_);
-  // Limits may be far above the cheapest speed: from there the method does not find the way to it.
-  for (double before_J = cost_J(b_), slower_J;; before_J = slower_J) {
-    slower_J = cost_J(0.5 * b_);
-    if (!(slower_J < before_J)) break;
+  // Limits may be far above the cheapest speed: from there the method does not find the way to it. Where a
+  // second costs nothing there is no such speed.
+  constexpr int kMostHalvings = 16;
+  double least_J = cost_J(b_);
+  for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
+    const double slower_J = cost_J(0.5 * b_);
+    if (!(slower_J < least_J)) break;
     b_ *= 0.5;
+    least_J = slower_J;
   }
 }
 
