@@ -355,7 +355,7 @@ driving backward are left out, and the reference has no rows for limits of motor
 `driven`: the program under test drives the reference's curve as a given path (of two legs: it plans with
 the reference's heading at the stop). Both energies are then the program's own, and the excess is over the
 cheaper one. The other columns compare with the reference's own figure, whose curves have a bound of
-curvature: {narrow:.1f} (a direction of 1.45 rad) or {sharpest:g} over half the track, or none (a start may
+curvature: {NARROW:.1f} (a direction of 1.45 rad) or {sharpest:g} over half the track, or none (a start may
 turn in place). Each cell has the median, the 95 % quantile and the maximum, in %."""
 
 
@@ -369,7 +369,7 @@ def report(cases, note):
         "",
         note,
         "",
-        INTRODUCTION.format(arc=ARC_PARTS, fine=FINE_PARTS, narrow=NARROW, sharpest=SHARPEST),
+        INTRODUCTION.format(arc=ARC_PARTS, fine=FINE_PARTS, sharpest=SHARPEST),
         "",
         "| legs | number | over the cheaper of plan and `driven` | over the reference, narrow bound "
         "| over the reference "
