@@ -32,7 +32,7 @@ KINDS = ("open", "corner", "two_legs")
 SEED = 20261130
 ROBOT_NAMES = ("nomad_super_scout", "amr_150kg")
 LEFT_OUT = ("jerk_m_s3", "reverse_speed_m_s")  # of the robot files' limits: the program has no such rows
-NARROW = math.tan(1.45)  # half track * curvature: a narrower bound than the planner's
+PLANNERS_SHARPEST = math.tan(1.45)  # half track * curvature: the bound of the planner's paths
 SHARPEST = 20.0  # of the reference: an arc of 8 mm for the Nomad
 FREE = 1e3  # as good as a turn in place
 DEARER_PERCENT = 0.5  # such legs are listed
@@ -47,7 +47,7 @@ NUMBERS = (
     "goal_y_m",
     "goal_heading_rad",
     "arc_J",
-    "narrow_J",
+    "planners_bound_J",
     "reference_J",
     "free_J",
     "starts",
@@ -106,7 +106,7 @@ def search(name, kind, first, last):
             best, starts, basins = seeker.two_legs(start, stop, goal)
         else:
             best, arc_J, starts, basins = seeker.leg(start, goal)
-        other_J = [seeker.again(best, bound) for bound in (NARROW, FREE)]
+        other_J = [seeker.again(best, bound) for bound in (PLANNERS_SHARPEST, FREE)]
         place = [*start, *(stop or (math.nan, math.nan)), *goal]
         keep(name, kind, index, [*place, arc_J, other_J[0], best[0], other_J[1], starts, basins], best[1])
         print(
@@ -284,7 +284,7 @@ def measured(program, folder, row, curves):
         other_J = own_plan(program, folder, robot, row, wrapped(between)).get("energy_J") or math.inf
     else:
         other_J = driven_J(program, folder, robot, row, curve[0], half_track_m)
-    own_J = {name: float(row[f"{name}_J"]) for name in ("arc", "narrow", "reference", "free")}
+    own_J = {name: float(row[f"{name}_J"]) for name in ("arc", "planners_bound", "reference", "free")}
     return {"row": row, "plan_J": plan_J, "model_J": model_J, "driven_J": other_J, "own_J": own_J}
 
 
@@ -309,7 +309,7 @@ def table_row(name, cases):
     shown = [name, str(len(cases))]
     for excess in (
         [percent(c["plan_J"], min(c["plan_J"], c["driven_J"])) for c in cases],
-        [percent(c["plan_J"], c["own_J"]["narrow"]) for c in cases],
+        [percent(c["plan_J"], c["own_J"]["planners_bound"]) for c in cases],
         [percent(c["plan_J"], c["own_J"]["reference"]) for c in cases],
         [percent(c["plan_J"], c["own_J"]["free"]) for c in cases],
     ):
@@ -355,7 +355,7 @@ driving backward are left out, and the reference has no rows for limits of motor
 `driven`: the program under test drives the reference's curve as a given path (of two legs: it plans with
 the reference's heading at the stop). Both energies are then the program's own, and the excess is over the
 cheaper one. The other columns compare with the reference's own figure, whose curves have a bound of
-curvature: {NARROW:.1f} (a direction of 1.45 rad) or {sharpest:g} over half the track, or none (a start may
+curvature: the planner's (a direction of 1.45 rad), {sharpest:g} over half the track, or none (a start may
 turn in place). Each cell has the median, the 95 % quantile and the maximum, in %."""
 
 
@@ -371,7 +371,7 @@ def report(cases, note):
         "",
         INTRODUCTION.format(arc=ARC_PARTS, fine=FINE_PARTS, sharpest=SHARPEST),
         "",
-        "| legs | number | over the cheaper of plan and `driven` | over the reference, narrow bound "
+        "| legs | number | over the cheaper of plan and `driven` | over the reference, planner's bound "
         "| over the reference "
         "| over the reference without a bound |",
         "|---|---|---|---|---|---|",
@@ -415,11 +415,11 @@ def dearer(cases):
     shown = [
         f"| {c['row']['robot']} | {c['row']['kind']} {c['row']['index']} | {c['plan_J']:.3f} "
         f"| {c['driven_J']:.3f} | {excess:.2f} % "
-        f"| {c['own_J']['narrow']:.3f} | {c['own_J']['reference']:.3f} |"
+        f"| {c['own_J']['planners_bound']:.3f} | {c['own_J']['reference']:.3f} |"
         for excess, c in rows
     ]
     head = [
-        "| robot | leg | plan, J | `driven`, J | excess | reference with the narrow bound, J "
+        "| robot | leg | plan, J | `driven`, J | excess | reference with the planner's bound, J "
         "| reference, J |",
         "|---|---|---|---|---|---|---|",
     ]

@@ -59,7 +59,7 @@ struct Program {
 };
 
 inline constexpr double kMostDirection_rad =
-    1.52;  ///< of |phi|, or of |phi - pi|: curvature 19.7 / half track
+    1.45;  ///< of |phi|, or of |phi - pi|: curvature 8.2 / half track
 inline constexpr double kShortestPiece_m = 0.03, kShortestTurn_m = 1e-3;
 
 inline double Program::shortest_m(std::size_t piece) const {
