@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/thresholds.hpp"
 #include "model/printable.hpp"
@@ -37,7 +38,7 @@ Samples at_equal_steps(const Samples& time_s, const Samples& values) {
 
 /// Of a[i] with b[i + lag].
 double correlation(const Samples& a, const Samples& b, int lag) {
-  const int n = static_cast<int>(std::min(a.size(), b.size()));
+  const auto n = static_cast<int>(std::min(a.size(), b.size()));
   double count = 0, sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
   for (int i = std::max(0, -lag); i < n && i + lag < n; ++i) {
     const double x = a[static_cast<std::size_t>(i)], y = b[static_cast<std::size_t>(i + lag)];
@@ -101,9 +102,11 @@ std::vector<std::string> motor_notes(const Dataset& dataset) {
         std::ranges::find_if(dataset.runs, [side](const Run& run) { return lag_s(run, side) != 0.0; });
     if (late == dataset.runs.end()) continue;
     const double lag = lag_s(*late, side);
-    notes.push_back(late->name + ": " + motor_name("voltage", side, "V") + " follows its wheel about " +
-                    four_digits(std::abs(lag)) + (lag > 0 ? " s late" : " s early") +
-                    ": do motors and wheels have one clock? Logs are joined by their times, not by rows");
+    std::string note = late->name + ": ";
+    note.append(motor_name("voltage", side, "V")).append(" follows its wheel about ");
+    note.append(four_digits(std::abs(lag))).append(lag > 0 ? " s late" : " s early");
+    note.append(": do motors and wheels have one clock? Logs are joined by their times, not by rows");
+    notes.push_back(std::move(note));
   }
   return notes;
 }
