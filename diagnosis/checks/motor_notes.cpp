@@ -37,10 +37,10 @@ Samples at_equal_steps(const Samples& time_s, const Samples& values) {
 }
 
 /// Of a[i] with b[i + lag].
-double correlation(const Samples& a, const Samples& b, int lag) {
-  const auto n = static_cast<int>(std::min(a.size(), b.size()));
+double correlation(const Samples& a, const Samples& b, std::ptrdiff_t lag) {
+  const std::ptrdiff_t n = std::min(std::ssize(a), std::ssize(b));
   double count = 0, sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
-  for (int i = std::max(0, -lag); i < n && i + lag < n; ++i) {
+  for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -lag); i < n && i + lag < n; ++i) {
     const double x = a[static_cast<std::size_t>(i)], y = b[static_cast<std::size_t>(i + lag)];
     count += 1, sum_a += x, sum_b += y, aa += x * x, bb += y * y, ab += x * y;
   }
@@ -94,9 +94,10 @@ std::vector<std::string> motor_notes(const Dataset& dataset) {
         std::ranges::find_if(dataset.runs, [side](const Run& run) { return lacks_sign(run, side); });
     if (unsigned_run != dataset.runs.end()) {
       const std::string column = motor_name("current", side, "A");
-      notes.push_back(unsigned_run->name + ": " + column +
-                      " is never negative, although its wheel turns backward: is its sign lost? columns: {" +
-                      column + ": {unsigned: true}} takes the sign from the wheel");
+      std::string note = unsigned_run->name + ": ";
+      note.append(column).append(" is never negative, although its wheel turns backward: is its sign lost? ");
+      note.append("columns: {").append(column).append(": {unsigned: true}} takes the sign from the wheel");
+      notes.push_back(std::move(note));
     }
     const auto late =
         std::ranges::find_if(dataset.runs, [side](const Run& run) { return lag_s(run, side) != 0.0; });
