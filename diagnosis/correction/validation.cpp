@@ -164,10 +164,10 @@ bool is_noise(const Examination& x, double gap, const Refit& fitted) {
 }
 
 /// A gap of noise, of causes that are all below the materiality floor, is none: they are listed, however sure
-/// they are. Of unknown terms alone it may be more than noise, as long as it is immaterial: no name is lost.
+/// they are.
 bool is_no_gap(const Examination& x, double before, const Validation& v) {
-  if (v.judgment.verdict == Verdict::no_gap || v.judgment.sizes.greatest >= 1) return false;
-  return is_noise(x, before, v.fitted) || (v.judgment.named.empty() && before < 100 * kMaterialEnergy);
+  return v.judgment.verdict != Verdict::no_gap && v.judgment.sizes.greatest < 1 &&
+         is_noise(x, before, v.fitted);
 }
 
 void list_what_is_no_gap(const Examination& x, Validation& v) {
