@@ -256,9 +256,9 @@ inline constexpr double kRegularReadings = 0.8;
 /// Half of a channel's changes over the lower tenth: of steps to which it is rounded less, since they are all
 /// alike. Chosen: noise has a factor of 5.
 inline constexpr double kOfOneStep = 1.5;
-/// Readings so many 1-sigma widths of the smoothing apart are seen one by one: those of a pose where they are,
-/// those of a battery where what they read is steady, since a delay to second order no longer describes them.
-/// Chosen (0500, 0501).
+/// Readings so many 1-sigma widths of the smoothing apart are seen one by one: those of a pose where they
+/// are, those of a battery where what they read is steady, since a delay to second order no longer describes
+/// them. Chosen (0500, 0501).
 inline constexpr double kBlurredReadings = 2;
 /// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
 inline constexpr double kResolution = 5e-4;
