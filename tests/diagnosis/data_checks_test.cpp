@@ -221,8 +221,12 @@ TEST(MotorNotes, OfEqualDrivesAreNone) {
   joulepath::Run run{.name = "four drives"};
   for (int i = 0; i < 400; ++i) {
     const double t = 0.04 * i, phase = std::fmod(t, 4.0), peak = 4.0;
-    const double acceleration = phase < 1.6 ? peak / 1.6 : phase < 3.2 ? -peak / 1.6 : 0.0,
-                 speed = phase < 1.6 ? acceleration * phase : phase < 3.2 ? peak * (3.2 - phase) / 1.6 : 0.0;
+    const double acceleration = phase < 1.6   ? peak / 1.6
+                                : phase < 3.2 ? -peak / 1.6
+                                              : 0.0,
+                 speed = phase < 1.6   ? acceleration * phase
+                         : phase < 3.2 ? peak * (3.2 - phase) / 1.6
+                                       : 0.0;
     run.log.time_s.push_back(t);
     for (const Side side : kSides) {
       run.log.wheel_speed_rad_s[side].push_back(speed);
