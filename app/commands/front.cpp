@@ -84,7 +84,7 @@ class FrontCommand : public Command {
     const bool open = slower_is_always_cheaper(mission, world);
     drop_times(mission, open);
     expect_steps(points_ + std::min(points_, baseline_points_));
-    const auto [plans, names, front] = mission_front(mission, world, options_.plan, points_, open);
+    const auto [plans, front] = mission_front(mission, world, options_.plan, points_, open);
     const Plan& plan = plans.front();
     if (!is_driven(plan)) {
       std::cerr << "no front: " << plan.message << "\n";

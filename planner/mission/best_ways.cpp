@@ -117,20 +117,17 @@ class WayTrials {
     if (!minimizes_time(mission()) && hurries) take({kNoLimit});
   }
 
-  double least_energy_price_W() const {
+  void try_least_energy(double first_W, bool mean_ramps = false) {
     MissionRequest cheapest = mission();
     cheapest.objective.minimize = Objective::Minimize::energy;
-    return first_price_W(cheapest, request_.world, request_.plant);
-  }
-
-  void try_least_energy(double first_W) {
-    if (const double price_W = least_energy_price_W(); price_W != first_W) take({price_W});
+    if (const double price_W = first_price_W(cheapest, request_.world, request_.plant); price_W != first_W)
+      take({price_W, mean_ramps});
   }
 
   /// The joint program leaves the jerk limit out: its ways suit ramps that are steeper than any drive's.
   void try_mean_ramps(double first_W) {
     take({first_W, true});
-    if (const double price_W = least_energy_price_W(); price_W != first_W) take({price_W, true});
+    try_least_energy(first_W, true);
   }
 
   /// The joint program converges worse in the greatest haste, and it knows no limit of jerk.

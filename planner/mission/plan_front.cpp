@@ -36,9 +36,9 @@ bool searched_ways(const Plan& plan) {
 
 /// Adds the plan of least time and one between it and the plan of least energy, where ways differ.
 void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, PlanOptions options,
-                      const RouteSpace* space, MissionFront& all) {
+                      const RouteSpace* space, std::vector<Plan>& plans, std::vector<const char*>& names) {
   options.baselines = options.path_bound = false;
-  for (const double price_W : {kNoLimit, middle_price_W(all.plans.front())}) {
+  for (const double price_W : {kNoLimit, middle_price_W(plans.front())}) {
     if (price_W <= 0) continue;
     MissionRequest hurried = mission;
     hurried.objective.minimize =
@@ -46,9 +46,9 @@ void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, 
     if (std::isfinite(price_W)) hurried.objective.time_value_W = price_W;
     Plan plan = plan_mission(hurried, world, options, space);
     const auto is_known = [&](const Plan& known) { return same_ways(plan, known); };
-    if (!is_driven(plan) || std::any_of(all.plans.begin(), all.plans.end(), is_known)) continue;
-    all.plans.push_back(std::move(plan));
-    all.names.push_back(std::isinf(price_W) ? "least_time" : "between");
+    if (!is_driven(plan) || std::any_of(plans.begin(), plans.end(), is_known)) continue;
+    plans.push_back(std::move(plan));
+    names.push_back(std::isinf(price_W) ? "least_time" : "between");
   }
 }
 
@@ -93,9 +93,10 @@ MissionFront mission_front(const MissionRequest& mission, const MissionWorld& wo
                            const PlanOptions& options, std::size_t points, bool open) {
   const std::optional<RouteSpace> space = route_space(mission, world);
   const RouteSpace* floor = space ? &*space : nullptr;
-  MissionFront all{.plans = {plan_mission(mission, world, options, floor)}, .names = {"least_energy"}};
+  MissionFront all{.plans = {plan_mission(mission, world, options, floor)}};
   if (!is_driven(all.plans.front())) return all;
-  if (searched_ways(all.plans.front())) add_faster_plans(mission, world, options, floor, all);
+  std::vector<const char*> names{"least_energy"};
+  if (searched_ways(all.plans.front())) add_faster_plans(mission, world, options, floor, all.plans, names);
   const Plan& first = all.plans.front();
   const FrontPoint rest = rest_of(first);
   std::vector<FrontDrive> drives;
@@ -109,7 +110,7 @@ MissionFront mission_front(const MissionRequest& mission, const MissionWorld& wo
   all.front = lowest_front(drives, points, open ? planned_price_W(first) : 0.0);
   for (FrontPoint& point : all.front.points) {
     point = sum_of(point, rest);
-    point.ways = all.names[point.drive];
+    point.ways = names[point.drive];
   }
   return all;
 }

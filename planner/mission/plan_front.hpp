@@ -25,9 +25,8 @@ struct MissionFront {
   /// Of least energy, of least time, and at a price of time between them; each only where its ways differ
   /// from those before.
   std::vector<Plan> plans{};
-  std::vector<const char*> names{};  ///< of the plans: "least_energy", "least_time", "between"
   /// The lowest of the fronts on their ways, what a plan takes beside its stretches included. A point's drive
-  /// is the index of its plan.
+  /// is the index of its plan, its ways "least_energy", "least_time" or "between".
   Front front{};
 };
 

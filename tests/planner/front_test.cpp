@@ -100,7 +100,7 @@ TEST(Front, IsTheLowestOfThePlansOnItsWays) {
   PlanOptions finer = kFrontPlan;
   finer.nodes = 120;
   for (const FrontCase& made : {through_gaps(), on_two_legs()}) {
-    const auto [plans, names, front] = mission_front(made.mission, made.world, finer, 24, false);
+    const auto [plans, front] = mission_front(made.mission, made.world, finer, 24, false);
     ASSERT_EQ(plans.size(), 3u);
     for (std::size_t k = 1; k < front.points.size(); ++k) {
       EXPECT_GT(front.points[k].duration_s, front.points[k - 1].duration_s);
@@ -148,7 +148,7 @@ TEST(Front, UnderAJerkLimitIsNeitherFasterNorCheaperThanThePlans) {
 /// The straight line is the way of all plans.
 TEST(Front, OnOneWayIsThatOfItsPlan) {
   const FrontCase made = on_open_floor({3, 3, 0}, 8, 3);
-  const auto [plans, names, front] = mission_front(made.mission, made.world, kFrontPlan, 6, false);
+  const auto [plans, front] = mission_front(made.mission, made.world, kFrontPlan, 6, false);
   EXPECT_EQ(plans.size(), 1u);
   const Front alone = energy_time_front(planned_stretches(plans.front()), 6);
   ASSERT_EQ(front.points.size(), alone.points.size());
