@@ -57,16 +57,20 @@ double lag_s(const Run& run, Side side) {
   if (voltage.empty() || speed.empty()) return 0.0;
   const int most = std::min(static_cast<int>(kLongestLag_s / kLagStep_s), static_cast<int>(speed.size()) / 4);
   const int shortest = std::min(most, static_cast<int>(kLeastLag_s / kLagStep_s));
+  struct Shift {
+    int lag{};
+    double correlation{};
+  };
   const auto best_within = [&](int reach) {
-    int best = 0;
+    Shift best{.lag = 0, .correlation = correlation(speed, voltage, 0)};
     for (int lag = -reach; lag <= reach; ++lag)
-      if (correlation(speed, voltage, lag) > correlation(speed, voltage, best)) best = lag;
+      if (const double found = correlation(speed, voltage, lag); found > best.correlation)
+        best = {lag, found};
     return best;
   };
-  const int best = best_within(most);
-  const double found = correlation(speed, voltage, best),
-               in_time = correlation(speed, voltage, best_within(shortest));
-  return found > kFollowsWell && found > in_time + kClearlyLate ? best * kLagStep_s : 0.0;
+  const Shift best = best_within(most), in_time = best_within(shortest);
+  const bool late = best.correlation > kFollowsWell && best.correlation > in_time.correlation + kClearlyLate;
+  return late ? best.lag * kLagStep_s : 0.0;
 }
 
 /// Whether the current is never clearly negative although the wheel turns backward for a while.

@@ -1,5 +1,6 @@
 #include "scenarios/text/schema_text.hpp"
 
+#include <limits>
 #include <sstream>
 
 namespace joulepath {

@@ -111,7 +111,8 @@ class Examination:
         if not robot.exists() or (out / "dataset_corrected.yaml").exists():
             return None
         data = self.generate("fresh", ["--day", "1", "--protocol", "24"])
-        parts = (data / "dataset.yaml").read_text().split("start_time_s")
+        day = (data / "dataset.yaml").read_text()
+        parts = day.split("start_time_s")
         text = "start_time_s".join(parts[:FITTED_RUNS + 1]) + "".join("use: validation, start_time_s" + part for part in parts[FITTED_RUNS + 1:])
         found = {}
         for name, file in (("before", "robot.yaml"), ("after", robot)):
@@ -120,7 +121,7 @@ class Examination:
             gap = self.diagnose(dataset, self.scratch / "fresh" / name).get("diagnosis", {}).get("gap", {}).get("energy", {})
             found |= {f"{name}_J": gap.get("before_J"), f"{name}_percent": gap.get("before_percent")}
         dataset = data / "again.yaml"
-        dataset.write_text((data / "dataset.yaml").read_text().replace("robot: robot.yaml", f"robot: {robot}"))
+        dataset.write_text(day.replace("robot: robot.yaml", f"robot: {robot}"))
         again = self.diagnose(dataset, self.scratch / "fresh" / "again").get("diagnosis", {})
         return found | {"again": {key: again.get(key) for key in ("verdict", "causes", "unknowns")}}
 
