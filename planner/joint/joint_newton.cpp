@@ -271,8 +271,8 @@ void JointNewton::Steps::for_bounds(const VectorXd& squares, const VectorXd& par
     const bool new_knot = j == 0 || program_.pieces[j - 1].to != piece.from;
     for (const Index knot : {piece.from, piece.to}) {
       if (piece.turns || (knot == piece.from && !new_knot)) continue;
-      each(bounds_[row++], kMostDirection_rad + (parameters[knot] - about), knot, false, 1.0);
-      each(bounds_[row++], kMostDirection_rad - (parameters[knot] - about), knot, false, -1.0);
+      each(bounds_[row++], program_.most_direction_rad + (parameters[knot] - about), knot, false, 1.0);
+      each(bounds_[row++], program_.most_direction_rad - (parameters[knot] - about), knot, false, -1.0);
     }
     const Index length = program_.length_of(j);
     each(bounds_[row++], parameters[length] - program_.shortest_m(j), length, false, 1.0);

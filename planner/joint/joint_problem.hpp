@@ -11,6 +11,10 @@
 // Design: docs/decisions/0212-joint-path-and-speed.md
 namespace joulepath::joint {
 
+/// Bounds of |phi|, or of |phi - pi|: of a search, and of the polishing of a path that lies on that bound.
+/// Curvature 8.2 and WIDER over half the track.
+inline constexpr double kMostDirection_rad = 1.45, kWiderDirection_rad = 1.56;
+
 /// A piece of path between two knots of the direction phi (DirectionSegment), `segments` equal parts of its
 /// length for the speed.
 struct Piece {
@@ -46,8 +50,9 @@ struct Program {
   std::vector<Waypoint> waypoints{};  ///< of the start alone
   std::vector<DriveLaw> laws{};
   Pose frame{};
-  const FootprintChecker* checker{};  ///< null: an open floor
-  double margin_m{};                  ///< beyond the checker's clearance
+  const FootprintChecker* checker{};              ///< null: an open floor
+  double margin_m{};                              ///< beyond the checker's clearance
+  double most_direction_rad{kMostDirection_rad};  ///< of |phi|, or of |phi - pi|
 
   Eigen::Index parameters() const { return knots + static_cast<Eigen::Index>(pieces.size()); }
   /// Index of a piece's length among the parameters: the knots' phi (rad), then the lengths tau (m).
@@ -58,8 +63,6 @@ struct Program {
   std::vector<Eigen::Index> held() const;               ///< knots that do not move: those of turns in place
 };
 
-inline constexpr double kMostDirection_rad =
-    1.45;  ///< of |phi|, or of |phi - pi|: curvature 8.2 / half track
 inline constexpr double kShortestPiece_m = 0.03, kShortestTurn_m = 1e-3;
 
 inline double Program::shortest_m(std::size_t piece) const {

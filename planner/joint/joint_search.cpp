@@ -16,14 +16,20 @@ constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments pe
 constexpr std::size_t kFewest = 2;                              ///< of a part of a piece
 constexpr std::size_t kMostPieces = 80;                         ///< for which pieces that bend are cut
 constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
-constexpr double kGiveUp = 1.02, kHopeless = 1.025, kNearBest = 1.005, kSame = 3e-4;
-constexpr std::size_t kRefined = 2;
+constexpr double kGiveUp = 1.02, kHopeless = 1.025, kSame = 3e-4;
+/// The candidates that are refined: how many, and how near to the best.
+struct Choice {
+  std::size_t most{};
+  double near{};
+};
+constexpr Choice kRanked{2, 1.005}, kUnranked{5, 1.05};  ///< unranked: the program lacks a limit
 constexpr double kFineTolerance = 3e-4;
 constexpr double kWarmGap = 0.05, kMarginGap = 0.01;   ///< NewtonOptions::gap from a solution
 constexpr int kMostSteps = 50, kMostStepsAgain = 100;  ///< of a start; where none converged
 constexpr double kPause = 0.03;                        ///< NewtonOptions::pause of all starts
 constexpr int kMarginRounds = 3;
 constexpr double kMarginStep_m = 1e-3;
+constexpr double kOnBound_rad = 0.05;
 
 struct Candidate {
   Start start{};
@@ -37,6 +43,18 @@ bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
     return program.checker->with_clearance(program.checker->clearance_m() + kNode_m)
         .first_collision(path)
         .has_value();
+  });
+}
+
+/// The program leaves the jerk limit out.
+bool knows_all_limits(const Program& program) { return std::isinf(program.laws.front().limits.jerk_m_s3); }
+
+/// Whether a knot lies on the bound of the direction: a wider one may be cheaper.
+bool is_bound(const Program& program, const Eigen::VectorXd& p) {
+  return std::any_of(program.pieces.begin(), program.pieces.end(), [&](const Piece& piece) {
+    const double about = piece.sign > 0 ? 0.0 : std::numbers::pi;
+    return !piece.turns && std::max(std::abs(p[piece.from] - about), std::abs(p[piece.to] - about)) >
+                               program.most_direction_rad - kOnBound_rad;
   });
 }
 
@@ -59,12 +77,14 @@ void lay_grid(FinerPieces& finer, bool dense) {
 /// cheapest that is nearly feasible where it converges on neither.
 Candidate refined(const Candidate& coarse) {
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
-  // The program leaves the jerk limit out: with more pieces paths would follow what it lacks.
-  const bool knows_limits = std::isinf(coarse.start.program.laws.front().limits.jerk_m_s3);
+  // With more pieces, or sharper ones, paths would follow a limit that the program lacks.
+  const bool knows_limits = knows_all_limits(coarse.start.program);
   Candidate best = coarse;
   for (std::size_t most_pieces = knows_limits ? kMostPieces : 0;; most_pieces = 0) {
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
     lay_grid(finer, dense);
+    if (knows_limits && is_bound(coarse.start.program, coarse.solution.parameters))
+      finer.start.program.most_direction_rad = kWiderDirection_rad;
     const bool whole = finer.start.program.pieces.size() == coarse.start.program.pieces.size();
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
     Candidate fine{.start = std::move(finer.start)};
@@ -201,7 +221,8 @@ std::vector<JointPaths> finished(const std::vector<Candidate>& found) {
   double last_J = 0;
   for (const Candidate& candidate : found) {
     const double cost_J = candidate.solution.cost_J;
-    if (best.size() == kRefined || (!best.empty() && cost_J > kNearBest * best.front().cost_J)) break;
+    const Choice& choice = knows_all_limits(candidate.start.program) ? kRanked : kUnranked;
+    if (best.size() == choice.most || (!best.empty() && cost_J > choice.near * best.front().cost_J)) break;
     if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
     last_J = cost_J;
     if (auto paths = finished(refined(candidate))) best.push_back(std::move(*paths));

@@ -25,7 +25,8 @@ VectorXd ease_of(const Program& program, const VectorXd& p) {
   for (Index i = program.knots; i < p.size(); ++i) ease[i] = std::max(kLeastLengthEase_m2, p[i] * p[i]);
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
-      const double room = kMostDirection_rad - std::abs(p[knot] - (piece.sign > 0 ? 0.0 : std::numbers::pi));
+      const double room =
+          program.most_direction_rad - std::abs(p[knot] - (piece.sign > 0 ? 0.0 : std::numbers::pi));
       ease[knot] = piece.turns ? kHeld : std::clamp(room * room, kLeastPhiEase, kPhiEase);
     }
   return ease;
@@ -46,7 +47,7 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
       if (piece.turns) continue;
-      const double about = piece.sign > 0 ? 0.0 : std::numbers::pi, most = kMostDirection_rad - 1e-6;
+      const double about = piece.sign > 0 ? 0.0 : std::numbers::pi, most = program.most_direction_rad - 1e-6;
       p[knot] = std::clamp(p[knot], about - most, about + most);
     }
 }

@@ -110,6 +110,7 @@ class WayTrials {
     take({});
     const double middle_W = has_drive() ? middle_price_W(*best_) : 0;
     if (middle_W > 0) take({middle_W});
+    if (middle_W > 0 && !minimizes_time(mission())) take({kCalmer * middle_W});
     const auto is_high = [&](double price_W) { return price_W > middle_W; };
     const std::vector<double> price_W =
         has_drive() ? searched_prices_W(*best_, mission()) : std::vector<double>{};

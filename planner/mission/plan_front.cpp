@@ -34,11 +34,12 @@ bool searched_ways(const Plan& plan) {
                      [](const LegPlan& leg) { return !leg.alternatives.empty(); });
 }
 
-/// Adds the plan of least time and one between it and the plan of least energy, where ways differ.
+/// Adds the plan of least time and two between it and the plan of least energy, where ways differ.
 void add_faster_plans(const MissionRequest& mission, const MissionWorld& world, PlanOptions options,
                       const RouteSpace* space, std::vector<Plan>& plans, std::vector<const char*>& names) {
   options.baselines = options.path_bound = false;
-  for (const double price_W : {kNoLimit, middle_price_W(plans.front())}) {
+  const double middle_W = middle_price_W(plans.front());
+  for (const double price_W : {kNoLimit, middle_W, kCalmer * middle_W}) {
     if (price_W <= 0) continue;
     MissionRequest hurried = mission;
     hurried.objective.minimize =

@@ -101,7 +101,7 @@ TEST(Front, IsTheLowestOfThePlansOnItsWays) {
   finer.nodes = 120;
   for (const FrontCase& made : {through_gaps(), on_two_legs()}) {
     const auto [plans, front] = mission_front(made.mission, made.world, finer, 24, false);
-    ASSERT_EQ(plans.size(), 3u);
+    ASSERT_EQ(plans.size(), 4u);
     for (std::size_t k = 1; k < front.points.size(); ++k) {
       EXPECT_GT(front.points[k].duration_s, front.points[k - 1].duration_s);
       EXPECT_LT(front.points[k].energy_J, front.points[k - 1].energy_J);

@@ -137,6 +137,26 @@ TEST(Joint, AnAnswerInFinerPiecesIsHardlyCheaper) {
   EXPECT_LT(std::accumulate(saved.begin(), saved.end(), 0.0) / static_cast<double>(saved.size()), 0.0015);
 }
 
+/// Short legs that turn by half a turn, against drives of [Andersson2019] that may turn in place at their
+/// ends (benchmarks/ways/joint_nlp_reference.csv): a bound of 1.45 rad on the direction costs up to 2.7 %.
+TEST(Joint, ShortLegsThatTurnMuchCostWhatTurnsInPlaceAllow) {
+  struct Leg {
+    Pose start{}, goal{};
+    double reference_J{};
+  };
+  const Robot robot = testing::nomad();
+  for (const Leg& leg : {Leg{{4.8517, 4.6143, -1.9912}, {4.9008, 4.2965, 0.4966}, 31.8962},
+                         Leg{{-1.4262, -0.7641, 0.1263}, {-0.9714, -0.7079, -3.0406}, 44.2741},
+                         Leg{{2.9019, -4.9734, -2.7403}, {3.1627, -4.729, -0.2634}, 39.2632},
+                         Leg{{-0.3815, -1.1153, 2.9113}, {-0.7168, -1.1783, 0.4199}, 41.6164}}) {
+    const auto found = paths_between(robot, leg.start, {{leg.goal.x_m, leg.goal.y_m}, leg.goal.heading_rad});
+    ASSERT_FALSE(found.empty());
+    const double energy_J = driven_J(robot, found.front().legs.front());
+    EXPECT_LT(energy_J, 1.01 * leg.reference_J);
+    EXPECT_GT(energy_J, 0.998 * leg.reference_J);
+  }
+}
+
 // A leg straight ahead: the path is the line, the energy that of the profile solver on it.
 TEST(Joint, StraightAheadIsTheLine) {
   const Robot robot = even_nomad();

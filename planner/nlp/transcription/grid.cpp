@@ -159,6 +159,27 @@ bool drives_parabola(const ProfileRequest& request, double length, double least_
          2.25 * length * length <= cap * T * T && torque_is_the_same_everywhere(request);
 }
 
+/// Accelerations of the path coordinate that shape a grid.
+struct RampRates {
+  explicit RampRates(const ProfileRequest& request) {
+    const Limits& most = request.limits;
+    const auto finite = [](double value, double otherwise) {
+      return std::isfinite(value) && value > 0 ? value : otherwise;
+    };
+    const bool turn = is_turn(request.piece);
+    up = finite(turn ? most.yaw_acceleration_rad_s2 : most.acceleration_m_s2, 1.0);
+    down = finite(turn ? most.yaw_acceleration_rad_s2 : most.deceleration_m_s2, up);
+    yaw = most.yaw_acceleration_rad_s2 > 0 ? most.yaw_acceleration_rad_s2 : kNoLimit;
+  }
+  double up{}, down{};
+  double yaw{};  ///< rad/s^2
+};
+
+/// A smooth minimum: times between nodes change gently, as those of an optimal profile do.
+double smooth_rate(double from_start, double from_end, double cap) {
+  return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
+}
+
 }  // namespace
 
 std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request) {
@@ -173,20 +194,11 @@ std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileReque
 }
 
 double reference_rate(const ProfileRequest& request, double length, double s, double cap) {
-  const bool turn = is_turn(request.piece);
-  const auto finite = [](double value, double otherwise) {
-    return std::isfinite(value) && value > 0 ? value : otherwise;
-  };
-  const double up =
-      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.acceleration_m_s2, 1.0);
-  const double down =
-      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.deceleration_m_s2, up);
-  if (drives_parabola(request, length, std::min(up, down), cap))
+  const RampRates ramps(request);
+  if (drives_parabola(request, length, std::min(ramps.up, ramps.down), cap))
     return std::sqrt(parabola_squared(length, request.time.duration_s, s));
-  const double from_start = request.start_rate * request.start_rate + 2 * up * s;
-  const double from_end = request.end_rate * request.end_rate + 2 * down * (length - s);
-  // A smooth minimum: times between nodes change gently, as those of an optimal profile do.
-  return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
+  return smooth_rate(request.start_rate * request.start_rate + 2 * ramps.up * s,
+                     request.end_rate * request.end_rate + 2 * ramps.down * (length - s), cap);
 }
 
 namespace {
@@ -195,51 +207,108 @@ namespace {
 class NodeDensity {
  public:
   NodeDensity(const PathMotion& motion, const ProfileRequest& request, std::size_t count)
-      : cells_(4 * std::max<std::size_t>(count, 50)),
-        h_(motion.length() / static_cast<double>(cells_)),
-        cumulative_(cells_ + 1, 0.0) {
-    std::vector<double> time(cells_), bend(cells_);
+      : edges_(cell_edges(motion, 4 * std::max<std::size_t>(count, 50))), cumulative_(edges_.size(), 0.0) {
+    const std::size_t cells = edges_.size() - 1;
+    std::vector<double> time(cells), bend(cells);
     double total_time = 0, total_bend = 0;
-    for (std::size_t i = 0; i < cells_; ++i) {
-      const double s = (static_cast<double>(i) + 0.5) * h_;
-      const PathRates rates = motion.rates(s);
-      const double u = reference_rate(request, motion.length(), s, rate_cap_squared(request, rates, s));
-      time[i] = h_ / std::max(u, 1e-6);
-      bend[i] =
-          is_turn(request.piece) ? 0.0 : h_ * (std::abs(rates.turn) + std::sqrt(std::abs(rates.turn_slope)));
+    std::vector<PathRates> rates(cells);
+    for (std::size_t i = 0; i < cells; ++i) rates[i] = motion.rates(middle(i));
+    const std::vector<double> u = reference_rates(motion, request, rates);
+    for (std::size_t i = 0; i < cells; ++i) {
+      const auto& [along, turn, turn_slope] = rates[i];
+      time[i] = width(i) / std::max(u[i], 1e-6);
+      bend[i] = is_turn(request.piece) ? 0.0 : width(i) * (std::abs(turn) + std::sqrt(std::abs(turn_slope)));
       total_time += time[i];
       total_bend += bend[i];
     }
     // Bends get up to 0.4 of the nodes, by how much heading they turn; distance alone gets 0.1.
     const double bend_share = total_bend > 0 ? 0.4 * total_bend / (total_bend + 1.0) : 0.0;
     const double time_share = 0.9 - bend_share;
-    for (std::size_t i = 0; i < cells_; ++i)
+    for (std::size_t i = 0; i < cells; ++i)
       cumulative_[i + 1] = cumulative_[i] + time_share * time[i] / total_time +
                            (total_bend > 0 ? bend_share * bend[i] / total_bend : 0.0) +
-                           0.1 / static_cast<double>(cells_);
+                           0.1 * width(i) / motion.length();
   }
 
   /// Arc length before which a share of the nodes stands.
   [[nodiscard]] double place_of(double share) const {
-    const double part = share * cumulative_.back();
-    const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), part);
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-        after - cumulative_.begin() - 1, 0, static_cast<std::ptrdiff_t>(cells_) - 1));
-    const double inside = (part - cumulative_[i]) / (cumulative_[i + 1] - cumulative_[i]);
-    return (static_cast<double>(i) + std::clamp(inside, 0.0, 1.0)) * h_;
+    return between(cumulative_, edges_, share * cumulative_.back());
   }
 
   /// Share of the nodes before an arc length.
   [[nodiscard]] double share_of(double s) const {
-    const double cell = std::clamp(s / h_, 0.0, static_cast<double>(cells_));
-    const auto i = std::min(static_cast<std::size_t>(cell), cells_ - 1);
-    return (cumulative_[i] + (cell - static_cast<double>(i)) * (cumulative_[i + 1] - cumulative_[i])) /
-           cumulative_.back();
+    return between(edges_, cumulative_, s) / cumulative_.back();
   }
 
  private:
-  std::size_t cells_;
-  double h_;
+  static constexpr double kMostTurn_rad = 0.02;  ///< of a cell
+  static constexpr int kMostCuts = 12;
+
+  /// Equal cells, those cut in which the heading turns more: near a turn in place most of the time passes on
+  /// a thousandth of the length.
+  static std::vector<double> cell_edges(const PathMotion& motion, std::size_t cells) {
+    std::vector<double> edges{0.0};
+    const double length = motion.length();
+    const bool turn = is_turn(motion.piece());
+    double before = std::abs(motion.rates(0).turn);
+    for (std::size_t i = 1; i <= cells; ++i) {
+      const double to = length * static_cast<double>(i) / static_cast<double>(cells);
+      const double after = std::abs(motion.rates(to).turn);
+      if (!turn) cut_turns(motion, {edges.back(), before}, {to, after}, kMostCuts, edges);
+      edges.push_back(to);
+      before = after;
+    }
+    return edges;
+  }
+
+  struct Bend {
+    double s{}, turn{};
+  };
+  static void cut_turns(const PathMotion& motion, const Bend& from, const Bend& to, int cuts,
+                        std::vector<double>& edges) {
+    if (cuts == 0 || std::max(from.turn, to.turn) * (to.s - from.s) <= kMostTurn_rad) return;
+    const double s = 0.5 * (from.s + to.s);
+    const Bend here{s, std::abs(motion.rates(s).turn)};
+    cut_turns(motion, from, here, cuts - 1, edges);
+    edges.push_back(s);
+    cut_turns(motion, here, to, cuts - 1, edges);
+  }
+
+  /// Of the cells: as reference_rate, with ramps that yaw acceleration flattens where the path bends.
+  std::vector<double> reference_rates(const PathMotion& motion, const ProfileRequest& request,
+                                      const std::vector<PathRates>& rates) const {
+    const RampRates ramps(request);
+    const auto half_gain = [&](std::size_t i, double most) {
+      return width(i) * std::min(most, ramps.yaw / std::abs(rates[i].turn));
+    };
+    std::vector<double> from_start(rates.size()), u(rates.size());
+    double square = request.start_rate * request.start_rate;
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      from_start[i] = square + half_gain(i, ramps.up);
+      square += 2 * half_gain(i, ramps.up);
+    }
+    square = request.end_rate * request.end_rate;
+    for (std::size_t i = rates.size(); i-- > 0; square += 2 * half_gain(i, ramps.down)) {
+      const double s = middle(i), cap = rate_cap_squared(request, rates[i], s);
+      u[i] = drives_parabola(request, motion.length(), std::min(ramps.up, ramps.down), cap)
+                 ? std::sqrt(parabola_squared(motion.length(), request.time.duration_s, s))
+                 : smooth_rate(from_start[i], square + half_gain(i, ramps.down), cap);
+    }
+    return u;
+  }
+
+  double width(std::size_t i) const { return edges_[i + 1] - edges_[i]; }
+  double middle(std::size_t i) const { return 0.5 * (edges_[i] + edges_[i + 1]); }
+
+  /// y at x, linear between the pairs.
+  static double between(const std::vector<double>& x, const std::vector<double>& y, double at) {
+    const auto after = std::upper_bound(x.begin(), x.end(), at);
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(after - x.begin() - 1, 0, static_cast<std::ptrdiff_t>(x.size()) - 2));
+    return y[i] + std::clamp((at - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0) * (y[i + 1] - y[i]);
+  }
+
+  std::vector<double> edges_;  ///< of the cells
   std::vector<double> cumulative_;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
@@ -26,6 +27,39 @@ ProfileRequest straight_request(double length_m, const Robot& robot = testing::n
 
 /// A quarter turn of a cubic Bezier, as the paper drives it.
 PathPiece bezier_piece() { return Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})}); }
+
+/// A roll that begins and ends almost as a turn in place: half of its time passes on a hundredth of its
+/// length.
+PathPiece nearly_turning_piece() {
+  std::vector<CurveSegment> segments;
+  Pose here;
+  for (const auto& [from_rad, to_rad, length_m] :
+       {std::array{1.56, 1.3, 0.09}, {1.3, 0.2, 0.3}, {0.2, 0.0, 0.9}, {0.0, 1.3, 0.3}, {1.3, 1.56, 0.09}}) {
+    const DirectionSegment next(here, {from_rad, to_rad, length_m, testing::nomad().geometry.half_track_m});
+    here = next.at(next.length_m()).pose;
+    segments.push_back(next);
+  }
+  return Curve(std::move(segments));
+}
+
+TEST(Profile, OnFewNodesCostsLittleMoreWhereAPathNearlyTurnsInPlace) {
+  const Plant plant = make_plant(testing::nomad());
+  ProfileRequest request{.piece = nearly_turning_piece(),
+                         .plant = plant,
+                         .limits = *plant.robot.limits,
+                         .solver = SolverChoice::fast};
+  const auto energy_J = [&](std::size_t nodes) {
+    request.nodes = nodes;
+    const ProfileResult result = solve_profile(request);
+    return result.profile ? replay(request, *result.profile).energy_J : 0.0;
+  };
+  const double finest_J = energy_J(1500);
+  ASSERT_GT(finest_J, 0);
+  for (const std::size_t nodes : {60, 200}) {
+    EXPECT_LT(energy_J(nodes), 1.005 * finest_J) << nodes;
+    EXPECT_GT(energy_J(nodes), 0.999 * finest_J) << nodes;
+  }
+}
 
 TEST(Profile, StraightLineMeetsTheClosedForm) {
   Robot robot = testing::nomad();
