@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/survey.hpp"
@@ -24,6 +25,7 @@
 #include "model/effects/catalog.hpp"
 #include "model/effects/effect_label.hpp"
 #include "model/progress.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 namespace {
@@ -112,6 +114,39 @@ Verdict shown_verdict(Verdict verdict, const GapReport& gap) {
   return verdict == Verdict::explained && !shrinks_notably(gap) ? Verdict::partly_explained : verdict;
 }
 
+/// Whether the energy gap or a signal's falls to half.
+bool is_halved(const GapReport& gap) {
+  const auto halves = [](double before, double after) { return before > 0 && 2 * after <= before; };
+  const auto signal = [&](const SignalGap& s) { return s.present && halves(s.before_rms, s.after_rms); };
+  const auto energy = [&](const EnergyGap& e) { return halves(e.before_percent, e.after_percent); };
+  return energy(gap.energy) || (gap.battery_energy && energy(*gap.battery_energy)) || signal(gap.current_A) ||
+         signal(gap.voltage_V) || signal(gap.position_m) || signal(gap.heading_rad) || signal(gap.battery_W);
+}
+
+/// Whether names beside something unknown leave most of every gap on the held-out runs, and energy that
+/// matters: then they imitate the unknown cause.
+bool leaves_most(const Examination& x, const Validation& validation) {
+  const Judgment& judgment = validation.judgment;
+  if (judgment.verdict != Verdict::partly_explained || judgment.named.empty()) return false;
+  const GapReport gap = held_out_gap(x, validation, 0);
+  return is_seen(gap.energy) && gap.energy.after_percent > 100 * kMaterialEnergy && !is_halved(gap);
+}
+
+/// The same judgment without its names, and without the unknown terms that are theirs.
+Judgment without_names(Judgment judgment) {
+  std::vector<std::string> labels;
+  for (const ActiveEffect& effect : std::exchange(judgment.named, {})) {
+    labels.push_back(effect.candidate.label());
+    std::erase_if(judgment.unknowns, [&](const UnknownCause& unknown) {
+      return unknown.depends_on.ends_with("(" + labels.back() + ")");
+    });
+  }
+  judgment.verdict = Verdict::unexplained;
+  judgment.depends_on = text_of_list(labels) + " leaves more than half of every gap: no cause of the catalog";
+  judgment.sizes.of_names.clear();
+  return judgment;
+}
+
 /// What the held-out runs say of the named causes: verdict, gap, causes, and what they are worth.
 Diagnosis conclusion(const Examination& x, const Names& names, const Validation& validation,
                      std::size_t bootstrap) {
@@ -168,6 +203,8 @@ Examined examine(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& 
   examined.names = choose_names(x);
   finish_steps();
   examined.validation = validate(x, judge(x, examined.names));
+  if (leaves_most(x, examined.validation))
+    examined.validation = validate(x, without_names(examined.validation.judgment));
   finish_steps();
   return examined;
 }
