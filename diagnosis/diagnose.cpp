@@ -142,7 +142,7 @@ Judgment without_names(Judgment judgment) {
     });
   }
   judgment.verdict = Verdict::unexplained;
-  judgment.depends_on = text_of_list(labels) + " leaves more than half of every gap: no cause of the catalog";
+  judgment.depends_on = "more than half of every gap is left after " + text_of_list(labels);
   judgment.sizes.of_names.clear();
   return judgment;
 }
