@@ -35,9 +35,9 @@ constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that 
 constexpr double kProvenTime = 0.01;  ///< target of the gap of least time, as a share of `accuracy`
 /// Share of the previous gap: a finer grid that closes less is the last one.
 constexpr double kWorthAProof = 0.7;
-/// A grid with more than this multiple of the requested nodes is not refined for its bound.
+/// A grid with more nodes than this multiple of the requested ones, and than the limits alone needed, is not
+/// refined for its bound.
 constexpr std::size_t kMostNodes = 4;
-constexpr std::size_t kMostAgain = 1;  ///< the same of the nodes that the limits need
 /// A grid with more nodes is not refined for the energy: along a stretch where a wheel's power stays at zero,
 /// the kink of its recovery, the error is of first order in h.
 constexpr std::size_t kManyNodes = 1000;
@@ -300,7 +300,7 @@ class ProfileSolver {
     if (std::isinf(least_gap_)) first_proof_nodes_ = problem.node_count();
     least_gap_ = std::min(least_gap_, share);
     if (share <= aim || !better || stage_ == Stage::polish || summary.local ||
-        problem.node_count() > std::max(kMostNodes * request_.nodes, kMostAgain * first_proof_nodes_))
+        problem.node_count() > std::max(kMostNodes * request_.nodes, first_proof_nodes_))
       return {};
     const std::vector<double> excess = fastest ? time_excess_s(profile, least) : gap.of_segment;
     if (excess.empty()) return {};
@@ -327,7 +327,7 @@ class ProfileSolver {
   std::optional<ProfileResult> incumbent_{};  ///< the last within the limits, whatever a finer grid gives
   ProfileResult result_{};
   double least_gap_{kNoLimit};
-  std::size_t first_proof_nodes_{};
+  std::size_t first_proof_nodes_{};  ///< of the grid that the limits need
 };
 
 bool jerk_limited(const ProfileRequest& request) {
