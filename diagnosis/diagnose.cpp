@@ -127,7 +127,8 @@ bool is_halved(const GapReport& gap) {
 /// matters: then they imitate the unknown cause.
 bool leaves_most(const Examination& x, const Validation& validation) {
   const Judgment& judgment = validation.judgment;
-  if (judgment.verdict != Verdict::partly_explained || judgment.named.empty()) return false;
+  if (judgment.verdict != Verdict::partly_explained || judgment.named.empty() || !validation.refused.empty())
+    return false;
   const GapReport gap = held_out_gap(x, validation, 0);
   return is_seen(gap.energy) && gap.energy.after_percent > 100 * kMaterialEnergy && !is_halved(gap);
 }
