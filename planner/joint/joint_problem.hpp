@@ -13,7 +13,7 @@ namespace joulepath::joint {
 
 /// Bounds of |phi|, or of |phi - pi|: of a search, and of the polishing of a path that lies on that bound.
 /// Curvature 8.2 and WIDER over half the track.
-inline constexpr double kMostDirection_rad = 1.45, kWiderDirection_rad = 1.56;
+inline constexpr double kMostDirection_rad = 1.45, kWiderDirection_rad = 1.52;
 
 /// A piece of path between two knots of the direction phi (DirectionSegment), `segments` equal parts of its
 /// length for the speed.
