@@ -32,7 +32,7 @@ KINDS = ("open", "corner", "two_legs")
 SEED = 20261130
 ROBOT_NAMES = ("nomad_super_scout", "amr_150kg")
 LEFT_OUT = ("jerk_m_s3", "reverse_speed_m_s")  # of the robot files' limits: the program has no such rows
-PLANNERS_SHARPEST = math.tan(1.45)  # half track * curvature: the bound of the planner's paths
+PLANNERS_SHARPEST = math.tan(1.45)  # half track * curvature: the bound of the planner's search
 SHARPEST = 20.0  # of the reference: an arc of 8 mm for the Nomad
 FREE = 1e3  # as good as a turn in place
 DEARER_PERCENT = 0.5  # such legs are listed
@@ -355,8 +355,8 @@ driving backward are left out, and the reference has no rows for limits of motor
 `driven`: the program under test drives the reference's curve as a given path (of two legs: it plans with
 the reference's heading at the stop). Both energies are then the program's own, and the excess is over the
 cheaper one. The other columns compare with the reference's own figure, whose curves have a bound of
-curvature: the planner's (a direction of 1.45 rad), {sharpest:g} over half the track, or none (a start may
-turn in place). Each cell has the median, the 95 % quantile and the maximum, in %."""
+curvature: that of the planner's search (a direction of 1.45 rad; its polish has 1.52), {sharpest:g} over half
+the track, or none (a start may turn in place). Each cell has the median, the 95 % quantile and the maximum, in %."""
 
 
 def report(cases, note):

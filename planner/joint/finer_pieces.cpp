@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace joulepath::joint {
 namespace {
@@ -13,9 +12,7 @@ constexpr double kShortestPart_m = 0.12, kMostCuts = 8;
 constexpr double kStraight_rad = 0.05;  ///< of |phi|: a curvature of 0.3 / m on a track of 0.35 m
 
 bool bends(const Piece& piece, const VectorXd& p) {
-  const double about = piece.sign > 0 ? 0.0 : std::numbers::pi;
-  const double bend = std::max(std::abs(p[piece.from] - about), std::abs(p[piece.to] - about));
-  return !piece.turns && bend > kStraight_rad;
+  return !piece.turns && piece.bend_rad(p) > kStraight_rad;
 }
 
 /// Length of the parts of pieces that bend, for about so many pieces in all.

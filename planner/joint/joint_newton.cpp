@@ -267,7 +267,7 @@ void JointNewton::Steps::for_bounds(const VectorXd& squares, const VectorXd& par
            true, 1 / most_square_);
   for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
     const Piece& piece = program_.pieces[j];
-    const double about = piece.sign > 0 ? 0.0 : M_PI;
+    const double about = piece.straight_rad();
     const bool new_knot = j == 0 || program_.pieces[j - 1].to != piece.from;
     for (const Index knot : {piece.from, piece.to}) {
       if (piece.turns || (knot == piece.from && !new_knot)) continue;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -25,6 +28,12 @@ struct Piece {
   bool rests_after{};  ///< the robot stands at its end: phi may jump
   std::size_t segments{};
   bool turns{};  ///< turns in place: phi is held at +-pi/2, between rests
+
+  double straight_rad() const { return sign > 0 ? 0.0 : std::numbers::pi; }  ///< phi of a straight line
+  /// Largest deviation of phi from a straight line, of the program's parameters.
+  double bend_rad(const Eigen::VectorXd& parameters) const {
+    return std::max(std::abs(parameters[from] - straight_rad()), std::abs(parameters[to] - straight_rad()));
+  }
 };
 
 /// A pose that the path must reach at the end of a piece, in the frame of the start.

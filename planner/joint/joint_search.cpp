@@ -52,9 +52,7 @@ bool knows_all_limits(const Program& program) { return std::isinf(program.laws.f
 /// Whether a knot lies on the bound of the direction: a wider one may be cheaper.
 bool is_bound(const Program& program, const Eigen::VectorXd& p) {
   return std::any_of(program.pieces.begin(), program.pieces.end(), [&](const Piece& piece) {
-    const double about = piece.sign > 0 ? 0.0 : std::numbers::pi;
-    return !piece.turns && std::max(std::abs(p[piece.from] - about), std::abs(p[piece.to] - about)) >
-                               program.most_direction_rad - kOnBound_rad;
+    return !piece.turns && piece.bend_rad(p) > program.most_direction_rad - kOnBound_rad;
   });
 }
 
@@ -79,12 +77,12 @@ Candidate refined(const Candidate& coarse) {
   const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
   // With more pieces, or sharper ones, paths would follow a limit that the program lacks.
   const bool knows_limits = knows_all_limits(coarse.start.program);
+  const bool widens = knows_limits && is_bound(coarse.start.program, coarse.solution.parameters);
   Candidate best = coarse;
   for (std::size_t most_pieces = knows_limits ? kMostPieces : 0;; most_pieces = 0) {
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
     lay_grid(finer, dense);
-    if (knows_limits && is_bound(coarse.start.program, coarse.solution.parameters))
-      finer.start.program.most_direction_rad = kWiderDirection_rad;
+    if (widens) finer.start.program.most_direction_rad = kWiderDirection_rad;
     const bool whole = finer.start.program.pieces.size() == coarse.start.program.pieces.size();
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
     Candidate fine{.start = std::move(finer.start)};

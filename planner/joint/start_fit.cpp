@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planner/joint/path_geometry.hpp"
 
@@ -25,8 +24,7 @@ VectorXd ease_of(const Program& program, const VectorXd& p) {
   for (Index i = program.knots; i < p.size(); ++i) ease[i] = std::max(kLeastLengthEase_m2, p[i] * p[i]);
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
-      const double room =
-          program.most_direction_rad - std::abs(p[knot] - (piece.sign > 0 ? 0.0 : std::numbers::pi));
+      const double room = program.most_direction_rad - std::abs(p[knot] - piece.straight_rad());
       ease[knot] = piece.turns ? kHeld : std::clamp(room * room, kLeastPhiEase, kPhiEase);
     }
   return ease;
@@ -47,7 +45,7 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
   for (const Piece& piece : program.pieces)
     for (const Index knot : {piece.from, piece.to}) {
       if (piece.turns) continue;
-      const double about = piece.sign > 0 ? 0.0 : std::numbers::pi, most = program.most_direction_rad - 1e-6;
+      const double about = piece.straight_rad(), most = program.most_direction_rad - 1e-6;
       p[knot] = std::clamp(p[knot], about - most, about + most);
     }
 }

@@ -175,8 +175,12 @@ struct RampRates {
   double yaw{};  ///< rad/s^2
 };
 
-/// A smooth minimum: times between nodes change gently, as those of an optimal profile do.
-double smooth_rate(double from_start, double from_end, double cap) {
+/// The reference rate at s; `from_start`, `from_end`: squares that the ramps from both ends allow there.
+double rate_under_ramps(const ProfileRequest& request, const RampRates& ramps, double length, double s,
+                        double from_start, double from_end, double cap) {
+  if (drives_parabola(request, length, std::min(ramps.up, ramps.down), cap))
+    return std::sqrt(parabola_squared(length, request.time.duration_s, s));
+  // A smooth minimum: times between nodes change gently, as those of an optimal profile do.
   return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
 }
 
@@ -195,10 +199,9 @@ std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileReque
 
 double reference_rate(const ProfileRequest& request, double length, double s, double cap) {
   const RampRates ramps(request);
-  if (drives_parabola(request, length, std::min(ramps.up, ramps.down), cap))
-    return std::sqrt(parabola_squared(length, request.time.duration_s, s));
-  return smooth_rate(request.start_rate * request.start_rate + 2 * ramps.up * s,
-                     request.end_rate * request.end_rate + 2 * ramps.down * (length - s), cap);
+  return rate_under_ramps(request, ramps, length, s,
+                          request.start_rate * request.start_rate + 2 * ramps.up * s,
+                          request.end_rate * request.end_rate + 2 * ramps.down * (length - s), cap);
 }
 
 namespace {
@@ -289,10 +292,9 @@ class NodeDensity {
     }
     square = request.end_rate * request.end_rate;
     for (std::size_t i = rates.size(); i-- > 0; square += 2 * half_gain(i, ramps.down)) {
-      const double s = middle(i), cap = rate_cap_squared(request, rates[i], s);
-      u[i] = drives_parabola(request, motion.length(), std::min(ramps.up, ramps.down), cap)
-                 ? std::sqrt(parabola_squared(motion.length(), request.time.duration_s, s))
-                 : smooth_rate(from_start[i], square + half_gain(i, ramps.down), cap);
+      const double s = middle(i);
+      u[i] = rate_under_ramps(request, ramps, motion.length(), s, from_start[i],
+                              square + half_gain(i, ramps.down), rate_cap_squared(request, rates[i], s));
     }
     return u;
   }
