@@ -97,14 +97,15 @@ def easier(mission, plan):
     soon, late = ({**mission, "objective": {"minimize": "energy", "deadline_s": share * plan["duration_s"]}}
                   for share in (0.99, 1.0))
     yield "a later deadline", late, soon
-    stop = mission["stations"]["a"]
+    (first, second), stations = (leg["to"] for leg in mission["legs"]), mission["stations"]
+    stop = stations[first]
     if "heading_rad" in stop:
-        free = {name: {key: value for key, value in at.items() if name != "a" or key != "heading_rad"}
-                for name, at in mission["stations"].items()}
+        free = {name: {key: value for key, value in at.items() if name != first or key != "heading_rad"}
+                for name, at in stations.items()}
         yield "a free heading", {**mission, "stations": free}, mission
     else:
-        turn = math.atan2(mission["stations"]["b"]["y_m"] - stop["y_m"], mission["stations"]["b"]["x_m"] - stop["x_m"])
-        named = {**mission["stations"], "a": {**stop, "heading_rad": round(turn, 6)}}
+        turn = math.atan2(stations[second]["y_m"] - stop["y_m"], stations[second]["x_m"] - stop["x_m"])
+        named = {**stations, first: {**stop, "heading_rad": round(turn, 6)}}
         yield "a free heading", mission, {**mission, "stations": named}
 
 
