@@ -10,9 +10,6 @@
 namespace joulepath {
 namespace {
 
-/// Removes the mean of a column: the offset of a run's pose is free.
-void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }
-
 void fill(Channel channel, const Eigen::VectorXd& residual, ResidualRows& rows) {
   rows.value.col(channel) = residual;
   rows.present.col(channel).setConstant(true);
@@ -139,10 +136,15 @@ void fill_motion(const RunSignals& signals, const Prediction& prediction, Residu
     fill(kPositionX, signals.x_m - prediction.x_m, rows);
     fill(kPositionY, signals.y_m - prediction.y_m, rows);
   }
-  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
+  remove_pose_means(rows.value);
 }
 
 }  // namespace
+
+void remove_pose_means(Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0) return;
+  for (Channel pose : {kHeading, kPositionX, kPositionY}) rows.col(pose).array() -= rows.col(pose).mean();
+}
 
 ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction) {
   ResidualRows rows{.value = Eigen::MatrixXd::Zero(signals.size(), kChannelCount)};
@@ -177,7 +179,7 @@ Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& poin
   rows.col(kHeading) = changed.heading_rad - base.heading_rad;
   rows.col(kPositionX) = changed.x_m - base.x_m;
   rows.col(kPositionY) = changed.y_m - base.y_m;
-  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.col(pose));
+  remove_pose_means(rows);
   return rows;
 }
 

@@ -14,6 +14,9 @@ struct ResidualRows {
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> present{};
 };
 
+/// Takes the mean off heading and positions: the offset of a run's pose is free.
+void remove_pose_means(Eigen::MatrixXd& rows);
+
 /// Measured minus predicted values as structured rows.
 [[nodiscard]] ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point,
                                          const Prediction& prediction);

@@ -1,6 +1,7 @@
 #include "diagnosis/signals/held_readings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnosis/numerics/smoothing.hpp"
@@ -19,6 +20,38 @@ T lower_tenth(std::vector<T> values) {
   const auto at = values.begin() + std::ssize(values) / 10;
   std::ranges::nth_element(values, at);
   return *at;
+}
+
+/// Where a channel changes its value, but for the first time.
+struct Changes {
+  std::vector<std::size_t> apart{};  ///< samples since the change before
+  Samples by{};
+
+  /// Samples for which each value stays; 1 where too few of them, or of the changes, tell.
+  std::size_t hold() const {
+    if (apart.size() < kLeastReadings) return 1;
+    const std::size_t least = lower_tenth(apart);
+    const auto regular =
+        std::ranges::count_if(apart, [&](std::size_t n) { return n == least || n == least + 1; });
+    return regular < kRegularReadings * static_cast<double>(apart.size()) ? 1 : least;
+  }
+  /// As of a channel that is rounded to steps.
+  bool are_steps() const {
+    return apart.size() >= kLeastReadings && upper_median(by) < kOfOneStep * lower_tenth(by);
+  }
+};
+
+Changes changes_of(const Samples& channel) {
+  constexpr std::size_t kManyReadings = 2000;  // a long log need not be read to its end
+  Changes changes;
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < channel.size() && changes.apart.size() < kManyReadings; ++i)
+    if (channel[i] != channel[i - 1]) {
+      if (last > 0)
+        changes.apart.push_back(i - last), changes.by.push_back(std::abs(channel[i] - channel[i - 1]));
+      last = i;
+    }
+  return changes;
 }
 
 /// Lines between readings that are `hold` samples apart, or one more. A value that stays longer was read
@@ -57,15 +90,20 @@ bool holds_readings(const Trajectory& log) {
   return any;
 }
 
-/// Poses that are far apart stay: a line is not the way between them, and what reads them looks for readings.
+/// A pose is one reading: its channels hold together, also a heading that turns steadily and so changes in
+/// steps that are all alike. Poses that are far apart stay: a line is not the way between them, and what
+/// reads them looks for readings.
 void draw_lines(Trajectory& log) {
   if (log.size() < 2) return;
   const double period_s = (log.time_s.back() - log.time_s.front()) / static_cast<double>(log.size() - 1);
-  if (hold_of(log.heading_rad) > 1) log.heading_rad = unwrap_angle(log.heading_rad);
+  const std::array pose{&log.position_x_m, &log.position_y_m, &log.heading_rad};
+  const bool pose_holds =
+      std::ranges::any_of(pose, [](const Samples* channel) { return hold_of(*channel) > 1; });
+  if (pose_holds) log.heading_rad = unwrap_angle(log.heading_rad);
   for_each_reading(log, [&](Samples& channel) {
-    const std::size_t hold = hold_of(channel);
-    const bool is_pose =
-        &channel == &log.position_x_m || &channel == &log.position_y_m || &channel == &log.heading_rad;
+    const bool is_pose = std::ranges::count(pose, &channel) > 0;
+    const Changes changes = changes_of(channel);
+    const std::size_t hold = changes.are_steps() && !(is_pose && pose_holds) ? 1 : changes.hold();
     const bool is_apart = static_cast<double>(hold) * period_s > kBlurredReadings * kKernelSigma_s;
     if (hold > 1 && !(is_pose && is_apart)) channel = lines_between(channel, hold);
   });
@@ -74,22 +112,8 @@ void draw_lines(Trajectory& log) {
 }  // namespace
 
 std::size_t hold_of(const Samples& channel) {
-  constexpr std::size_t kManyReadings = 2000;  // a long log need not be read to its end
-  std::vector<std::size_t> lengths;
-  Samples jumps;
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < channel.size() && lengths.size() < kManyReadings; ++i)
-    if (channel[i] != channel[i - 1]) {
-      if (last > 0) lengths.push_back(i - last), jumps.push_back(std::abs(channel[i] - channel[i - 1]));
-      last = i;
-    }
-  if (lengths.size() < kLeastReadings) return 1;
-  const std::size_t hold = lower_tenth(lengths);
-  const auto regular =
-      std::ranges::count_if(lengths, [&](std::size_t n) { return n == hold || n == hold + 1; });
-  const bool is_rounded = upper_median(jumps) < kOfOneStep * lower_tenth(jumps);
-  if (hold < 2 || is_rounded || regular < kRegularReadings * static_cast<double>(lengths.size())) return 1;
-  return hold;
+  const Changes changes = changes_of(channel);
+  return changes.are_steps() ? 1 : changes.hold();
 }
 
 bool holds_readings(const Dataset& dataset) {

@@ -305,13 +305,18 @@ std::vector<std::size_t> new_readings(const Samples& channel) {
   return at;
 }
 
-/// Median time between the readings of a channel.
+/// Time between the readings of a channel: the mean of the steps that are within a sample of the median, by
+/// turns where it is no whole number of samples.
 double reading_period_s(const Samples& channel, double log_period_s) {
   const std::vector<std::size_t> at = new_readings(channel);
   std::vector<std::size_t> steps;
   for (std::size_t k = 1; k < at.size(); ++k) steps.push_back(at[k] - at[k - 1]);
   if (steps.empty()) return log_period_s;
-  return static_cast<double>(upper_median(std::move(steps))) * log_period_s;
+  const std::size_t median = upper_median(steps);
+  double count = 0, sum = 0;
+  for (const std::size_t step : steps)
+    if (step + 1 >= median && step <= median + 1) count += 1, sum += static_cast<double>(step);
+  return sum / count * log_period_s;
 }
 
 /// Below this current the dead band of a driver hides the winding: less than the friction current.

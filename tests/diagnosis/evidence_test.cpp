@@ -7,6 +7,7 @@
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/evidence/signatures.hpp"
+#include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
@@ -94,6 +95,52 @@ TEST(Forms, AreTheirEffectsPartTimesTheirVariable) {
     }
   }
   EXPECT_EQ(std::ranges::count(columns, Column::Kind::form, &Column::kind), 2 * std::ssize(kFormVariables));
+}
+
+/// What the nuisance of a key adds to the rows of a run, in its 1-sigma.
+Eigen::MatrixXd rows_of_nuisance(const RunSignals& run, const Robot& robot, const std::string& key) {
+  const std::vector<Nuisance> nuisances{{key, std::nullopt, 1.0}};
+  const ModelState state{.nuisance_fraction = {0.0}};
+  return signatures(run, robot, nuisances, state, {}, list_columns(nuisances, state, {}, 0, Forms::none),
+                    predict(run, model_point(robot, nuisances, state)))
+      .front();
+}
+
+/// A pose that every row reads and that is two rows late, on a run that ends elsewhere: the column is what
+/// its lateness adds to the rows, whose mean is free.
+TEST(LatePose, IsItsColumn) {
+  const Robot robot = testing::nomad();
+  const testing::MotionLaw law = [](double t) {
+    return BodyMotion<double>{.speed_m_s = 0.4 * (1 - std::exp(-t)),
+                              .acceleration_m_s2 = 0.4 * std::exp(-t),
+                              .yaw_rate_rad_s = 0.5 * std::sin(0.8 * t),
+                              .yaw_acceleration_rad_s2 = 0.4 * std::cos(0.8 * t)};
+  };
+  joulepath::Run sharp = testing::synthetic_run(robot, "one way", 10, 2.0, law);
+  double x_m = 0, y_m = 0;
+  for (const double t : sharp.log.time_s) {
+    const double heading_rad = 0.5 / 0.8 * (1 - std::cos(0.8 * t));
+    sharp.log.heading_rad.push_back(heading_rad);
+    sharp.log.position_x_m.push_back(x_m += 0.02 * law(t).speed_m_s * std::cos(heading_rad));
+    sharp.log.position_y_m.push_back(y_m += 0.02 * law(t).speed_m_s * std::sin(heading_rad));
+  }
+  joulepath::Run late = sharp;
+  const double late_s = 2 * (sharp.log.time_s[1] - sharp.log.time_s[0]);
+  for (auto* channel : {&late.log.position_x_m, &late.log.position_y_m, &late.log.heading_rad})
+    std::shift_right(channel->begin(), channel->end(), 2);
+  const auto rows_of = [&](const RunSignals& signals) {
+    return residual_rows(signals, {.robot = robot}, predict(signals, {.robot = robot})).value;
+  };
+  const RunSignals signals = make_run_signals(late, 0, robot);
+  const Eigen::MatrixXd change = rows_of(signals) - rows_of(make_run_signals(sharp, 0, robot)),
+                        column = late_s / (kReadingDelay * signals.reading_period_s.pose_s) *
+                                 rows_of_nuisance(signals, robot, kPoseStampNuisance);
+  for (const Channel pose : {kHeading, kPositionX, kPositionY}) {
+    ASSERT_GT(change.col(pose).cwiseAbs().maxCoeff(), 0.002) << pose;
+    EXPECT_LT((change - column).col(pose).cwiseAbs().maxCoeff(),
+              0.1 * change.col(pose).cwiseAbs().maxCoeff())
+        << pose;
+  }
 }
 
 TEST(UnstatedPayloadWidth, IsTheLimitOrAShareOfTheRobot) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -87,6 +88,27 @@ TEST(HeldReadings, AreDrawnAsLines) {
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(lines[i + k], read[i] + (read[i + 4] - read[i]) * double(k) / 4, 1e-12) << i + k;
   for (std::size_t i = 204; i < 396; ++i) EXPECT_EQ(lines[i], 3.0) << i;
+}
+
+/// A heading that turns steadily changes in steps that are all alike, as if it were rounded. It comes with
+/// positions that are held, and is read as they are.
+TEST(HeldReadings, OfAPoseAreThoseOfAllItsChannels) {
+  std::mt19937 random(10);
+  std::normal_distribution<double> normal(0, 0.002);
+  Dataset dataset{.runs = {{.name = "turns in place"}}};
+  Trajectory& log = dataset.runs[0].log;
+  for (std::size_t i = 0; i < 400; ++i) {
+    log.time_s.push_back(0.02 * static_cast<double>(i));
+    log.position_x_m.push_back(normal(random));
+    log.position_y_m.push_back(normal(random));
+    log.heading_rad.push_back(std::remainder(0.01 * static_cast<double>(i), 2 * std::numbers::pi));
+  }
+  for (auto* channel : {&log.position_x_m, &log.position_y_m, &log.heading_rad})
+    repeat_readings(*channel, 2.5);
+  EXPECT_EQ(hold_of(log.heading_rad), 1u);
+  EXPECT_EQ(hold_of(log.position_x_m), 2u);
+  const std::vector<double> heading_rad = between_readings(dataset).runs[0].log.heading_rad;
+  for (std::size_t i = 10; i < 390; ++i) EXPECT_NEAR(heading_rad[i + 1] - heading_rad[i], 0.01, 0.006) << i;
 }
 
 /// Between lines the noise is that of the readings.

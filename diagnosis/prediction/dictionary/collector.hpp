@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/prediction/dictionary.hpp"
+#include "diagnosis/prediction/rows.hpp"
 #include "model/mean_power.hpp"
 
 namespace joulepath {
@@ -148,10 +149,7 @@ class DictionaryCollector {
     if (!signals_) return;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(signals_->size(), kChannelCount);
     for (Eigen::Index j = 0; j < signals_->size(); ++j) fill(j, matrix);
-    for (Channel pose : {kHeading, kPositionX, kPositionY}) {
-      const double mean = matrix.rows() > 0 ? matrix.col(pose).mean() : 0.0;
-      matrix.col(pose).array() -= mean;
-    }
+    remove_pose_means(matrix);
     rows.push_back(std::move(matrix));
   }
 
