@@ -9,7 +9,8 @@ namespace joulepath {
 namespace {
 
 constexpr std::array kColumnsOnly{&kStampNuisance,        &kGyroStampNuisance,   &kPoseStampNuisance,
-                                  &kBatteryStampNuisance, &kBatteryMeanNuisance, &kSoftDriveNuisance, &kSoftTurnNuisance};
+                                  &kBatteryStampNuisance, &kBatteryMeanNuisance, &kSoftDriveNuisance,
+                                  &kSoftTurnNuisance};
 
 }  // namespace
 

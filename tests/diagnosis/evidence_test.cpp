@@ -137,8 +137,7 @@ TEST(LatePose, IsItsColumn) {
                                  rows_of_nuisance(signals, robot, kPoseStampNuisance);
   for (const Channel pose : {kHeading, kPositionX, kPositionY}) {
     ASSERT_GT(change.col(pose).cwiseAbs().maxCoeff(), 0.002) << pose;
-    EXPECT_LT((change - column).col(pose).cwiseAbs().maxCoeff(),
-              0.1 * change.col(pose).cwiseAbs().maxCoeff())
+    EXPECT_LT((change - column).col(pose).cwiseAbs().maxCoeff(), 0.1 * change.col(pose).cwiseAbs().maxCoeff())
         << pose;
   }
 }
