@@ -292,13 +292,6 @@ inline constexpr double kRunStandby_W = 0.05;
 /// it goes with the charge. Physical scale.
 inline constexpr double kOpenCircuitChange = 0.05;
 
-/// 1/frequency^2 with which a body swings behind its rotors on tires and gears, 1-sigma: 25 rad/s, 4 Hz. What
-/// swings more slowly is a cause. Physical scale.
-inline constexpr double kSwing_s2 = 1.6e-3;
-/// Width of the kernel of its column, in those of the signals. Chosen: up to 2.5 the column imitates the
-/// noise of accelerations, and days without a gap have one; from 4 on it misses the swing.
-inline constexpr double kSwingKernels = 3.0;
-
 /// Prior width of a payload that no file states over the robot's mass, where the robot has no limit of it.
 /// Physical scale.
 inline constexpr double kUnstatedPayloadShare = 0.5;

@@ -69,26 +69,6 @@ void withdraw(std::size_t member, const std::string& why, Validation& v) {
   named.erase(named.begin() + static_cast<std::ptrdiff_t>(member));
 }
 
-/// Whether some effect of a fit has a size that can be told and that is physical.
-bool tells_a_size(const Examination& x, const Refit& fitted) {
-  for (std::size_t e = 0; e < fitted.state.effects.size(); ++e)
-    if (is_told_from_zero(fitted, e) && is_inside_range(fitted, e, x.dataset.robot)) return true;
-  return false;
-}
-
-/// Withdraws the companions of the others, one by one. Where none of the others has a size without it, a name
-/// is no companion: an unknown term stands for it, and they are its own.
-void withdraw_companions(const Examination& x, const std::set<std::string>& terms, Validation& v) {
-  while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted, terms)) {
-    std::vector<ActiveEffect> others = v.judgment.named;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(*companion));
-    Refit fitted = fit_names(x, others, terms);
-    if (!tells_a_size(x, fitted)) return;
-    withdraw(*companion, "own evidence beside the other names is too small", v);
-    v.fitted = std::move(fitted);
-  }
-}
-
 /// Fits the names, without companions of the others, without those whose size a fit cannot tell from 0 or
 /// that lie outside their range. The evidence for them stays: without any name left the gap is unexplained,
 /// unless an effect too small to count is the cause.
@@ -96,7 +76,10 @@ void fit_what_can_be_told(const Examination& x, const std::set<std::string>& ter
   std::vector<ActiveEffect>& named = v.judgment.named;
   std::string dropped;
   v.fitted = fit_names(x, named, terms);
-  withdraw_companions(x, terms, v);
+  while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted, terms)) {
+    withdraw(*companion, "own evidence beside the other names is too small", v);
+    v.fitted = fit_names(x, named, terms);
+  }
   for (std::size_t e = named.size(); e-- > 0;) {
     if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
     const std::string why =

@@ -4,10 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "model/dynamics.hpp"
 #include "model/limit_table.hpp"
 
 namespace joulepath {
@@ -89,9 +87,7 @@ class Differencer {
         point_(model_point(robot, nuisances, state)) {}
 
   Eigen::MatrixXd nuisance(std::size_t k, double step) const {
-    if (nuisances_[k].key == kSoftDriveNuisance) return swing(false);
-    if (nuisances_[k].key == kSoftTurnNuisance) return swing(true);
-    if (is_column_only(nuisances_[k])) return of_clock(nuisances_[k].key);
+    if (is_of_clocks(nuisances_[k])) return of_clock(nuisances_[k].key);
     if (nuisances_[k].key == kCreepNuisance) return usual_creep_m_s_N(robot_) * creep();
     return difference(signals_, point_, base_, -step, step, [&](double change) {
       ModelState changed = state_;
@@ -167,55 +163,6 @@ class Differencer {
     if (key == kBatteryMeanNuisance)
       rows.col(kDriverPower) = std::pow(period_s.battery_s, 2) / 12 * slope(slope(base_.battery_power_W));
     return rows;
-  }
-
-  /// Derivative by 1/frequency^2 of a body that swings behind its rotors, along its way or in yaw, on tires
-  /// and gears that yield, in its 1-sigma: beside the rotors' motion it has that motion's second derivative,
-  /// and the currents what the body's inertia takes of it. The derivative of a narrow kernel would be made of
-  /// the noise of the wheels, which the rows hold as well.
-  Eigen::MatrixXd swing(bool in_yaw) const {
-    const Eigen::Index n = signals_.size();
-    std::vector<double> rate, acceleration;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const BodyMotion<double> motion = signals_.rolled_motion(robot_.geometry, j);
-      rate.push_back(in_yaw ? motion.yaw_rate_rad_s : motion.speed_m_s);
-      acceleration.push_back(in_yaw ? motion.yaw_acceleration_rad_s2 : motion.acceleration_m_s2);
-    }
-    const SmoothingKernel wide = gaussian_kernel(kSwingKernels * signals_.kernel_sigma_s, signals_.period_s);
-    const auto swing_of = [&](const std::vector<double>& values, Eigen::Index j) {
-      return -kSwing_s2 * convolve_at(values, wide.curvature_weight, static_cast<std::size_t>(j));
-    };
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n, kChannelCount);
-    double x_m = 0, y_m = 0, heading_rad = 0;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double swing = swing_of(rate, j);
-      add_inertial_current(in_yaw, swing_of(acceleration, j), j, rows);
-      if (in_yaw) {
-        rows(j, kGyro) = swing;
-        rows(j, kHeading) = heading_rad += swing * signals_.period_s;
-      } else {
-        rows(j, kPositionX) = x_m += swing * std::cos(signals_.heading_rad[j]) * signals_.period_s;
-        rows(j, kPositionY) = y_m += swing * std::sin(signals_.heading_rad[j]) * signals_.period_s;
-      }
-    }
-    remove_pose_means(rows);
-    return rows;
-  }
-
-  /// What the motors take to accelerate the body, along its way or in yaw.
-  void add_inertial_current(bool in_yaw, double acceleration, Eigen::Index j, Eigen::MatrixXd& rows) const {
-    BodyMotion<double> motion;
-    (in_yaw ? motion.yaw_acceleration_rad_s2 : motion.acceleration_m_s2) = acceleration;
-    const Wrench<double> wrench = inertial_wrench(mass_properties(robot_, signals_.payload_kg[j]), motion);
-    const Sided<double> force_N = contact_forces_N(robot_.geometry.half_track_m, wrench);
-    for (Side side : kSides) {
-      const int s = side == Side::left ? 0 : 1;
-      const double current_A =
-          robot_.geometry.wheel_radius_m[side] * force_N[side] / robot_.motor[side].torque_per_ampere_Nm_A();
-      rows(j, kCurrentLeft + s) = current_A;
-      if (signals_.motor_current_A[side].size() != signals_.size())
-        rows(j, kWindingLeft + s) = robot_.motor[side].resistance_ohm * current_A;
-    }
   }
 
   /// A pose that is late by a time (s). A late heading also turns the way of the wheels:

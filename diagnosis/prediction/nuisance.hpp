@@ -5,14 +5,12 @@
 
 namespace joulepath {
 
-/// Four errors of every robot that no robot file contains: tires creep slightly under force, time stamps of
-/// the electrical channels are accurate to a part of a sample only, after a turn the contacts may hold a
-/// yaw moment on a straight line, and the body swings behind its rotors on tires and gears that yield.
+/// Three errors of every robot that no robot file contains: tires creep slightly under force, time stamps of
+/// the electrical channels are accurate to a part of a sample only, and after a turn the contacts may hold a
+/// yaw moment on a straight line.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
 inline const std::string kHeldTurnNuisance = "held_turn";
-inline const std::string kSoftDriveNuisance = "soft_drive";
-inline const std::string kSoftTurnNuisance = "soft_turn";
 /// An instrument of its own is late or early by a part of its readings' period, a pose also where wheel
 /// speeds are those at the stamp and not means over the sample; the battery's readings are also means of
 /// another length than the motors'.
@@ -29,19 +27,18 @@ inline double usual_creep_m_s_N(const Robot& robot) {
 /// 1-sigma of the moment that the contacts hold after a turn, N m.
 double usual_held_moment_Nm(const Robot& robot);
 
-/// True for errors of instruments' clocks and a soft drive: columns of the linear problem only, too small to
-/// read the signals again.
-bool is_column_only(const Nuisance& nuisance);
+/// True for errors of instruments' clocks: columns of the linear problem only, too small to read the signals
+/// again.
+bool is_of_clocks(const Nuisance& nuisance);
 
-/// True for a constant with a relative error. Creep, time stamps, a held moment and a soft drive are errors
-/// about 0.
+/// True for a constant with a relative error. Creep, time stamps and a held moment are errors about 0.
 bool is_factor(const Nuisance& nuisance);
 
 /// A calibration constant in words: "wheel_radius_m" or "friction_torque_Nm (left)".
 std::string text_of(const Nuisance& nuisance);
 
-/// Nuisances: the `uncertainty:` of the robot file, tire creep, errors of clocks, a soft drive and the moment
-/// held after a turn.
+/// Nuisances: the `uncertainty:` of the robot file, tire creep, errors of clocks and the moment held after a
+/// turn.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 
 }  // namespace joulepath
