@@ -102,8 +102,7 @@ void draw_lines(Trajectory& log) {
   if (pose_holds) log.heading_rad = unwrap_angle(log.heading_rad);
   for_each_reading(log, [&](Samples& channel) {
     const bool is_pose = std::ranges::count(pose, &channel) > 0;
-    const Changes changes = changes_of(channel);
-    const std::size_t hold = changes.are_steps() && !(is_pose && pose_holds) ? 1 : changes.hold();
+    const std::size_t hold = is_pose && pose_holds ? changes_of(channel).hold() : hold_of(channel);
     const bool is_apart = static_cast<double>(hold) * period_s > kBlurredReadings * kKernelSigma_s;
     if (hold > 1 && !(is_pose && is_apart)) channel = lines_between(channel, hold);
   });

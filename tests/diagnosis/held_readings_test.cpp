@@ -9,9 +9,12 @@
 #include <random>
 #include <vector>
 
+#include "diagnosis/signals/run_signals.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/local_fit.hpp"
 #include "tests/support/blind_day.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
 
 namespace joulepath {
 namespace {
@@ -109,6 +112,22 @@ TEST(HeldReadings, OfAPoseAreThoseOfAllItsChannels) {
   EXPECT_EQ(hold_of(log.position_x_m), 2u);
   const std::vector<double> heading_rad = between_readings(dataset).runs[0].log.heading_rad;
   for (std::size_t i = 10; i < 390; ++i) EXPECT_NEAR(heading_rad[i + 1] - heading_rad[i], 0.01, 0.006) << i;
+}
+
+/// A pose that rows hold two and three times by turns has one period in all runs, whichever of the two comes
+/// more often.
+TEST(HeldReadings, HaveThePeriodOfTheirInstrument) {
+  const Robot robot = testing::nomad();
+  for (const double length_s : {10.0, 10.02, 10.04, 10.06}) {
+    joulepath::Run run =
+        testing::synthetic_run(robot, "held", length_s, 0.0, testing::swinging(0.5, 0.2, 1.1));
+    double way_m = 0;
+    for (const double speed_rad_s : run.log.wheel_speed_rad_s.left)
+      run.log.position_x_m.push_back(way_m += 0.02 * robot.geometry.wheel_radius_m.left * speed_rad_s);
+    run.log.position_y_m = run.log.position_x_m;
+    repeat_readings(run.log.position_x_m, 2.5), repeat_readings(run.log.position_y_m, 2.5);
+    EXPECT_NEAR(make_run_signals(run, 0, robot).reading_period_s.pose_s, 2.5 * 0.02, 0.0005) << length_s;
+  }
 }
 
 /// Between lines the noise is that of the readings.
