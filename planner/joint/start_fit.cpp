@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/joint/path_geometry.hpp"
 
@@ -16,6 +17,8 @@ constexpr double kGoal_m = 0.01;    ///< a deviation that weighs as much as a st
 constexpr double kWaypoint = 0.05;  ///< the same of waypoints (m, rad)
 constexpr double kClose = 0.02;     ///< of every waypoint (m, rad): near enough
 constexpr int kFollowSteps = 20;
+constexpr double kMoreDamping = 4, kMostDamping = 1e4;
+constexpr double kNotableGain = 0.01;  ///< of the squared deviation
 
 /// How far each parameter moves, squared: a knot no farther than to its bound, a length no farther than to 0.
 /// Those of turns in place hardly move, move() holds them.
@@ -50,35 +53,58 @@ void move(const Program& program, VectorXd& p, const VectorXd& change) {
     }
 }
 
+/// Of waypoints and targets, each over the deviation that weighs as much as a step of the ease.
+struct Deviations {
+  VectorXd weighted;
+  MatrixXd slopes;  ///< [deviations x parameters]
+  bool are_close;
+};
+
+Deviations deviations_of(const Program& program, PathGeometry& geometry, const VectorXd& p) {
+  geometry.differentiate(p);
+  const VectorXd errors = geometry.errors();
+  const auto rows = 3 * static_cast<Index>(program.waypoints.size());
+  MatrixXd slopes = MatrixXd::Zero(rows + errors.size(), p.size());
+  VectorXd off = VectorXd::Zero(slopes.rows());
+  for (Index i = 0; i < rows; i += 3) {
+    const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i / 3)];
+    const Pose there = geometry.pose(waypoint.piece, 1);
+    const auto slope = geometry.end_gradient(waypoint.piece);
+    off.segment<2>(i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
+    slopes.middleRows<2>(i) = slope.leftCols<2>().transpose();
+    if (!waypoint.heading_rad) continue;
+    off[i + 2] = there.heading_rad - *waypoint.heading_rad;
+    slopes.row(i + 2) = slope.col(2).transpose();
+  }
+  const bool are_close = off.head(rows).lpNorm<Eigen::Infinity>() < kClose && errors.norm() < kClose;
+  off.head(rows) /= kWaypoint;
+  slopes.topRows(rows) /= kWaypoint;
+  off.tail(errors.size()) = errors / kGoal_m;
+  slopes.bottomRows(errors.size()) = geometry.error_gradient() / kGoal_m;
+  return {std::move(off), std::move(slopes), are_close};
+}
+
 }  // namespace
 
 void follow_waypoints(const Program& program, VectorXd& p) {
   if (program.waypoints.empty()) return;
   PathGeometry geometry(program);
-  const auto rows = 3 * static_cast<Index>(program.waypoints.size());
-  for (int step = 0; step < kFollowSteps; ++step) {
-    geometry.differentiate(p);
-    const VectorXd errors = geometry.errors();
-    MatrixXd slopes = MatrixXd::Zero(rows + errors.size(), p.size());
-    VectorXd off = VectorXd::Zero(slopes.rows());
-    for (Index i = 0; i < rows; i += 3) {
-      const Waypoint& waypoint = program.waypoints[static_cast<std::size_t>(i / 3)];
-      const Pose there = geometry.pose(waypoint.piece, 1);
-      const auto slope = geometry.end_gradient(waypoint.piece);
-      off.segment<2>(i) << there.x_m - waypoint.at_m[0], there.y_m - waypoint.at_m[1];
-      slopes.middleRows<2>(i) = slope.leftCols<2>().transpose();
-      if (!waypoint.heading_rad) continue;
-      off[i + 2] = there.heading_rad - *waypoint.heading_rad;
-      slopes.row(i + 2) = slope.col(2).transpose();
+  Deviations now = deviations_of(program, geometry, p);
+  double damping = 1;
+  for (int step = 0; step < kFollowSteps && !now.are_close && damping < kMostDamping; ++step) {
+    MatrixXd normal = now.slopes.transpose() * now.slopes;
+    normal.diagonal() += damping * ease_of(program, p).cwiseInverse();
+    VectorXd next = p;
+    move(program, next, -normal.ldlt().solve(now.slopes.transpose() * now.weighted));
+    Deviations then = deviations_of(program, geometry, next);
+    const double least = now.weighted.squaredNorm(), reached = then.weighted.squaredNorm();
+    if (!(reached < least)) {
+      damping *= kMoreDamping;
+      continue;
     }
-    if (off.head(rows).lpNorm<Eigen::Infinity>() < kClose && errors.norm() < kClose) return;
-    off.head(rows) /= kWaypoint;
-    slopes.topRows(rows) /= kWaypoint;
-    off.tail(errors.size()) = errors / kGoal_m;
-    slopes.bottomRows(errors.size()) = geometry.error_gradient() / kGoal_m;
-    MatrixXd normal = slopes.transpose() * slopes;
-    normal.diagonal() += ease_of(program, p).cwiseInverse();
-    move(program, p, -normal.ldlt().solve(slopes.transpose() * off));
+    p = next;
+    now = std::move(then);
+    if (reached > (1 - kNotableGain) * least) return;
   }
 }
 
