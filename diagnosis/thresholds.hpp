@@ -269,6 +269,12 @@ inline constexpr double kVoltageResolution = 2e-4;
 inline constexpr double kUsualHeldMoment = 0.4;
 /// Creep of a rubber tire times the mass that it carries, 1-sigma. Physical scale.
 inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
+/// Inverse square of the natural frequency with which a body swings on its tires and gears, 1-sigma: 4 Hz.
+/// Physical scale.
+inline constexpr double kUsualSwing_s2 = 1.6e-3;
+/// Noise in the second derivative of an acceleration over its mean square, above which it shows no swing.
+/// Chosen (0501): guards days of noisy encoders against a copy of their noise.
+inline constexpr double kMostSwingNoise = 0.02;
 /// Error of time stamps over the log's period, 1-sigma. Chosen (0503).
 inline constexpr double kStampFraction = 0.06;
 /// Delay of another instrument than the motors' driver over the period of its readings, 1-sigma. Derived:

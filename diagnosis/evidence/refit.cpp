@@ -20,10 +20,10 @@ double clamp_shape(const Candidate& candidate, const std::string& name, double o
   return value;
 }
 
-/// Time stamps stay a column of the linear problem.
+/// Some stay a column of the linear problem.
 void set_nuisance(ModelState& state, const std::vector<Nuisance>& nuisances, std::size_t index,
                   double value) {
-  if (!is_of_clocks(nuisances[index])) state.nuisance_fraction[index] = value;
+  if (!is_column_only(nuisances[index])) state.nuisance_fraction[index] = value;
 }
 
 /// Moves the state to the parameters that the linear problem about it gives.

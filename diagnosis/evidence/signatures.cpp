@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/prediction/body_swing.hpp"
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/limit_table.hpp"
@@ -87,7 +88,9 @@ class Differencer {
         point_(model_point(robot, nuisances, state)) {}
 
   Eigen::MatrixXd nuisance(std::size_t k, double step) const {
-    if (is_of_clocks(nuisances_[k])) return of_clock(nuisances_[k].key);
+    if (nuisances_[k].key == kSwingNuisance) return swing(swing_along(signals_, robot_.geometry));
+    if (nuisances_[k].key == kYawSwingNuisance) return swing(swing_in_yaw(signals_, robot_.geometry));
+    if (is_column_only(nuisances_[k])) return of_clock(nuisances_[k].key);
     if (nuisances_[k].key == kCreepNuisance) return usual_creep_m_s_N(robot_) * creep();
     return difference(signals_, point_, base_, -step, step, [&](double change) {
       ModelState changed = state_;
@@ -148,6 +151,14 @@ class Differencer {
       point.contact_creep_m_s_N += change;
       return predict(signals_, point);
     });
+  }
+
+  /// Derivative by a swing, in its 1-sigma.
+  Eigen::MatrixXd swing(BodyLag lag) const {
+    lag *= kUsualSwing_s2;
+    ModelPoint point = point_;
+    point.swing = lag;
+    return signature_rows(signals_, point_, base_, predict(signals_, point));
   }
 
   /// Derivative by an error of an instrument's clock, in its 1-sigma.

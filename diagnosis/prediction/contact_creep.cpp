@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "diagnosis/prediction/added_torque.hpp"
+#include "model/kinematics.hpp"
 
 // Design: docs/decisions/0501-motion.md
 namespace joulepath {
@@ -40,9 +40,8 @@ Lagged lagged(const Eigen::VectorXd& target, const Eigen::VectorXd& slope, const
   return y;
 }
 
-ContactCreep::ContactCreep(const Plant& plant, const RunSignals& signals,
-                           const std::vector<Sided<double>>& contact_force_N)
-    : plant_(plant) {
+BodyLag contact_creep(const Plant& plant, const RunSignals& signals,
+                      const std::vector<Sided<double>>& contact_force_N) {
   const double c = 0.5 * plant.creep_m_s_N, half_track_m = plant.robot.geometry.half_track_m;
   const Eigen::Index n = signals.size();
   Eigen::VectorXd along(n), turn(n), along_lag_s(n), turn_lag_s(n);
@@ -58,25 +57,10 @@ ContactCreep::ContactCreep(const Plant& plant, const RunSignals& signals,
   const Sided<Eigen::VectorXd>& a = signals.wheel_acceleration_rad_s2;
   Sided<Eigen::VectorXd> jerk = signals.wheel_jerk_rad_s3;
   if (jerk.left.size() != n) jerk.left = jerk.right = Eigen::VectorXd::Zero(n);
-  along_ = follow(along, along_lag_s, 0.5 * (r.left * a.left + r.right * a.right),
-                  0.5 * (r.left * jerk.left + r.right * jerk.right), signals.period_s);
-  turn_ = follow(turn, turn_lag_s, (r.right * a.right - r.left * a.left) / (2 * half_track_m),
-                 (r.right * jerk.right - r.left * jerk.left) / (2 * half_track_m), signals.period_s);
-}
-
-BodyMotion<double> ContactCreep::body_motion(BodyMotion<double> wheels, Eigen::Index j) const {
-  wheels.speed_m_s -= along_.value[j];
-  wheels.acceleration_m_s2 -= along_.rate[j];
-  wheels.yaw_rate_rad_s -= turn_.value[j];
-  wheels.yaw_acceleration_rad_s2 -= turn_.rate[j];
-  return wheels;
-}
-
-void ContactCreep::spin_wheels(const Site& site, Eigen::Index j, Sided<WheelState<double>>& state) const {
-  const Robot& robot = plant_.robot;
-  const Sided<double> ahead_rad_s2 = wheel_speeds_rad_s(robot.geometry, along_.rate[j], turn_.rate[j]);
-  for (const Side side : kSides)
-    add_torque(plant_, site, side, robot.inertia.wheel_axle_inertia_kg_m2 * ahead_rad_s2[side], state[side]);
+  return {.along = follow(along, along_lag_s, 0.5 * (r.left * a.left + r.right * a.right),
+                          0.5 * (r.left * jerk.left + r.right * jerk.right), signals.period_s),
+          .turn = follow(turn, turn_lag_s, (r.right * a.right - r.left * a.left) / (2 * half_track_m),
+                         (r.right * jerk.right - r.left * jerk.left) / (2 * half_track_m), signals.period_s)};
 }
 
 }  // namespace joulepath

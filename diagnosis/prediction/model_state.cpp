@@ -18,7 +18,7 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
       point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * std::max(0.0, state.nuisance_fraction[k]);
     else if (nuisances[k].key == kHeldTurnNuisance)
       point.held_moment_Nm[*nuisances[k].side] = usual_held_moment_Nm(robot) * state.nuisance_fraction[k];
-    else if (is_of_clocks(nuisances[k]))
+    else if (is_column_only(nuisances[k]))
       continue;
     else if (is_payload_nuisance(nuisances[k]))
       point.payload_factor *= 1 + state.nuisance_fraction[k];

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -174,8 +172,8 @@ Sided<WheelState<double>> state_at(const Plant& plant, const RunSignals& signals
 }
 
 /// Where a plant has no creep: nothing.
-std::optional<ContactCreep> creep_of(const Plant& plant, const RunSignals& signals) {
-  if (plant.creep_m_s_N == 0) return std::nullopt;
+BodyLag creep_of(const Plant& plant, const RunSignals& signals) {
+  if (plant.creep_m_s_N == 0) return {};
   std::vector<Sided<double>> force_N;
   force_N.reserve(static_cast<std::size_t>(signals.size()));
   drive(plant, signals, [&](Eigen::Index, const Site& site, const BodyMotion<double>& motion) {
@@ -183,7 +181,7 @@ std::optional<ContactCreep> creep_of(const Plant& plant, const RunSignals& signa
     force_N.push_back({left.contact_force_N, right.contact_force_N});
     return motion;
   });
-  return std::optional<ContactCreep>(std::in_place, plant, signals, force_N);
+  return contact_creep(plant, signals, force_N);
 }
 
 void add_where_known(const Eigen::VectorXd& deviation, Eigen::VectorXd& channel) {
@@ -235,15 +233,16 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   const SplitModel split = split_model(point);
   const Plant& plant = split.plant;
   Prediction out = empty_prediction(signals.size());
-  const std::optional<ContactCreep> creep = creep_of(plant, signals);
+  BodyLag lag = creep_of(plant, signals);
+  lag += point.swing;
   Slip slip;
   HeldTurn turn(plant, point.held_moment_Nm);
   drive(plant, signals, [&](Eigen::Index j, const Site& site, const BodyMotion<double>& rolled) {
-    const BodyMotion<double> motion = creep ? creep->body_motion(rolled, j) : rolled;
+    const BodyMotion<double> motion = lag.empty() ? rolled : lag.body_motion(rolled, j);
     Sided<WheelState<double>> state = state_at(plant, signals, motion, site);
-    if (creep) {
-      creep->spin_wheels(site, j, state);
-      slip.add(creep->along_m_s(j) * signals.period_s, creep->turn_rad_s(j) * signals.period_s,
+    if (!lag.empty()) {
+      lag.spin_wheels(plant, site, j, state);
+      slip.add(lag.along.value[j] * signals.period_s, lag.turn.value[j] * signals.period_s,
                site.pose.heading_rad);
     }
     turn.load(signals, motion, site, state);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "diagnosis/prediction/body_lag.hpp"
 #include "diagnosis/signals/run_signals.hpp"
 #include "model/plant.hpp"
 
@@ -14,6 +15,8 @@ struct ModelPoint {
   std::vector<EffectSetting> effects{};  ///< in addition to those of the robot file
   double payload_factor{1.0};            ///< weighing error of all payloads
   double contact_creep_m_s_N{};          ///< creep of every tire, without the effects
+  /// Of the body behind its rotors, in addition to the contacts' creep, at the samples of one run; or empty.
+  BodyLag swing{};
   /// Of the contacts on a straight line after a turn to the left or to the right, in the turn's direction.
   Sided<double> held_moment_Nm{};
   double channel_delay_s{};  ///< delay of the motors' readings in addition to that of the effects

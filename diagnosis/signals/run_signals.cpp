@@ -231,13 +231,31 @@ Samples winding_V(const Motor& motor, const Samples& speed_rad_s, const Samples&
   return voltage;
 }
 
+/// Takes the noise out of accelerations at the fine samples. What their third differences have is noise or
+/// motion; noise is no more than white noise of the samples would leave.
+NoisyModes remove_noise(const Thinner& thinner, const Sided<Samples>& wheels, Sided<Eigen::VectorXd>& rate) {
+  const Samples& weights = thinner.kernel().slope_weight;
+  NoisyModes noise = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
+                                               thinner.fine_period_s(), thinner.mean_gain(weights));
+  const double gain = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+  const auto limit = [&](double other, NoisySquares& squares) {
+    Samples mode = thinner.before_filter(wheels.left);
+    const Samples right = thinner.before_filter(wheels.right);
+    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = 0.5 * (mode[i] + other * right[i]);
+    const double white = gain * std::pow(noise_of_readings(mode), 2) * static_cast<double>(rate.left.size());
+    squares.noise = std::min(squares.noise, white);
+  };
+  limit(1, noise.driving);
+  limit(-1, noise.turning);
+  return noise;
+}
+
 /// Accelerations and jerks without noise, and where the body turns.
 void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels) {
   const SmoothingKernel& kernel = thinner.kernel();
   Sided<Eigen::VectorXd> rate = thinner.fine(wheels, kernel.slope_weight),
                          jerk = thinner.fine(wheels, kernel.curvature_weight);
-  remove_acceleration_noise(rate, thinner.third_difference_gain(kernel.slope_weight), thinner.fine_period_s(),
-                            thinner.mean_gain(kernel.slope_weight));
+  signals.acceleration_noise = remove_noise(thinner, wheels, rate);
   remove_jerk_noise(jerk, thinner.third_difference_gain(kernel.curvature_weight));
   for (Side side : kSides) {
     signals.wheel_acceleration_rad_s2[side] = thinner.thinned(rate[side]);
@@ -478,23 +496,8 @@ SmoothedNoise smoothed_noise(const Run& run, const Robot& robot, const SignalOpt
   const Thinner thinner(run.log, options, run.velocity_filter_s);
   const Sided<Samples> logged = wheel_speeds(run.log, robot);
   const Sided<Samples> wheels{thinner.on_grid(logged.left), thinner.on_grid(logged.right)};
-  const Samples& weights = thinner.kernel().slope_weight;
-  Sided<Eigen::VectorXd> rate = thinner.fine(wheels, weights);
-  SmoothedNoise noise{
-      .accelerations = remove_acceleration_noise(rate, thinner.third_difference_gain(weights),
-                                                 thinner.fine_period_s(), thinner.mean_gain(weights)),
-      .kernel_sigma_s = thinner.sigma_s()};
-  const double gain = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
-  const auto limit = [&](double other, NoisySquares& squares) {
-    Samples mode = thinner.before_filter(wheels.left);
-    const Samples right = thinner.before_filter(wheels.right);
-    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = 0.5 * (mode[i] + other * right[i]);
-    const double white = gain * std::pow(noise_of_readings(mode), 2) * static_cast<double>(rate.left.size());
-    squares.noise = std::min(squares.noise, white);
-  };
-  limit(1, noise.accelerations.driving);
-  limit(-1, noise.accelerations.turning);
-  return noise;
+  Sided<Eigen::VectorXd> rate = thinner.fine(wheels, thinner.kernel().slope_weight);
+  return {.accelerations = remove_noise(thinner, wheels, rate), .kernel_sigma_s = thinner.sigma_s()};
 }
 
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,

@@ -59,6 +59,7 @@ struct RunSignals {
   bool payload_known{true};  ///< false: payload_kg is a guess, or an estimate from this log
   Sided<Eigen::VectorXd> wheel_speed_rad_s{};
   Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
+  NoisyModes acceleration_noise{};             ///< of them, before samples are left out
   Sided<Eigen::VectorXd> wheel_jerk_rad_s3{};  ///< zero below its noise; empty: unknown
   /// Mean over the kernel of the direction of the log's samples, -1 to 1; empty: of the mean speed.
   Sided<Eigen::VectorXd> wheel_direction{};
@@ -143,9 +144,7 @@ struct SignalOptions {
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options = {});
 
-/// Noise of a usable log's accelerations, and the width of the kernel under which it was seen. What the third
-/// differences of smoothed accelerations have is noise or motion; noise is no more than white noise of the
-/// samples would leave.
+/// Noise of a usable log's accelerations, and the width of the kernel under which it was seen.
 struct SmoothedNoise {
   NoisyModes accelerations{};
   double kernel_sigma_s{};
