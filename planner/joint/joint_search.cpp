@@ -12,10 +12,10 @@
 namespace joulepath::joint {
 namespace {
 
-constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments per piece
-constexpr std::size_t kFewest = 2;                              ///< of a part of a piece
-constexpr std::size_t kMostPieces = 80;                         ///< for which pieces that bend are cut
-constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
+constexpr std::size_t kCoarse = 5, kFine = 7;  ///< segments per piece
+constexpr std::size_t kFewest = 2;             ///< of a part of a piece
+constexpr std::size_t kMostPieces = 80;        ///< for which pieces that bend are cut
+constexpr double kNear_m = 0.1;                ///< of obstacles
 constexpr double kGiveUp = 1.02, kHopeless = 1.025, kSame = 3e-4;
 /// The candidates that are refined: how many, and how near to the best.
 struct Choice {
@@ -23,7 +23,7 @@ struct Choice {
   double near{};
 };
 constexpr Choice kRanked{2, 1.005}, kUnranked{5, 1.05};  ///< unranked: the program lacks a limit
-constexpr double kFineTolerance = 3e-4;
+constexpr double kFineTolerance = 6e-4;
 constexpr double kWarmGap = 0.05, kMarginGap = 0.01;   ///< NewtonOptions::gap from a solution
 constexpr int kMostSteps = 50, kMostStepsAgain = 100;  ///< of a start; where none converged
 constexpr double kPause = 0.03;                        ///< NewtonOptions::pause of all starts
@@ -40,7 +40,7 @@ bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
   if (!program.checker) return false;
   const std::vector<Path> paths = paths_of(program, parameters);
   return std::any_of(paths.begin(), paths.end(), [&](const Path& path) {
-    return program.checker->with_clearance(program.checker->clearance_m() + kNode_m)
+    return program.checker->with_clearance(program.checker->clearance_m() + kNear_m)
         .first_collision(path)
         .has_value();
   });
@@ -57,31 +57,25 @@ bool is_bound(const Program& program, const Eigen::VectorXd& p) {
 }
 
 /// The grid of the finer pieces.
-void lay_grid(FinerPieces& finer, bool dense) {
-  Program& program = finer.start.program;
+void lay_grid(FinerPieces& finer) {
   std::size_t next = 0;
   for (const std::size_t parts : finer.parts)
-    for (std::size_t part = 0; part < parts; ++part, ++next) {
-      const double length_m = finer.start.parameters[program.length_of(next)];
-      program.pieces[next].segments =
-          dense ? std::clamp(static_cast<std::size_t>(std::ceil(length_m / kNode_m)),
-                             parts > 1 ? kFewest : kCoarse, kMostFine)
-                : std::max(kFewest, (kFine + parts - 1) / parts);
-    }
-  if (dense) program.margin_m += kMarginStep_m;  // between nodes a path cuts corners
+    for (std::size_t part = 0; part < parts; ++part, ++next)
+      finer.start.program.pieces[next].segments = std::max(kFewest, (kFine + parts - 1) / parts);
 }
 
 /// The solution on a finer grid from a coarse one, with finer pieces where the method converges on them; the
 /// cheapest that is nearly feasible where it converges on neither.
 Candidate refined(const Candidate& coarse) {
-  const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
+  const bool is_near = near_obstacles(coarse.start.program, coarse.solution.parameters);
   // With more pieces, or sharper ones, paths would follow a limit that the program lacks.
   const bool knows_limits = knows_all_limits(coarse.start.program);
   const bool widens = knows_limits && is_bound(coarse.start.program, coarse.solution.parameters);
   Candidate best = coarse;
   for (std::size_t most_pieces = knows_limits ? kMostPieces : 0;; most_pieces = 0) {
     FinerPieces finer = cut(coarse.start.program, coarse.solution.parameters, most_pieces);
-    lay_grid(finer, dense);
+    lay_grid(finer);
+    if (is_near) finer.start.program.margin_m += kMarginStep_m;
     if (widens) finer.start.program.most_direction_rad = kWiderDirection_rad;
     const bool whole = finer.start.program.pieces.size() == coarse.start.program.pieces.size();
     const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, finer);
@@ -123,8 +117,8 @@ std::vector<Sketch> sketches_of(const Program& program, const Eigen::VectorXd& p
   return legs;
 }
 
-/// Paths that meet their goals to rounding and are free; rows only at nodes let a path cut a corner, which
-/// a larger margin mends.
+/// Paths that meet their goals to rounding and are free. The rows look every few centimetres: a corner that a
+/// path cuts between the looks is mended by a larger margin.
 std::optional<JointPaths> finished(Candidate candidate) {
   for (int round = 0; round <= kMarginRounds; ++round) {
     Eigen::VectorXd exact = candidate.solution.parameters;
@@ -208,11 +202,6 @@ class Exploration {
   std::vector<Run*> order_{};
 };
 
-void sort_by_cost(std::vector<JointPaths>& paths) {
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
-}
-
 /// The best candidates on the fine grid that reach their goals and are free.
 std::vector<JointPaths> finished(const std::vector<Candidate>& found) {
   std::vector<JointPaths> best;
@@ -225,7 +214,8 @@ std::vector<JointPaths> finished(const std::vector<Candidate>& found) {
     last_J = cost_J;
     if (auto paths = finished(refined(candidate))) best.push_back(std::move(*paths));
   }
-  sort_by_cost(best);
+  std::stable_sort(best.begin(), best.end(),
+                   [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
   return best;
 }
 
@@ -260,13 +250,10 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
 std::vector<JointPaths> best_joint_paths(const JointQuery& query,
                                          const std::vector<std::vector<Sketch>>& starts) {
   Exploration exploration(query, starts);
-  const std::vector<Candidate> found = exploration.found(kMostSteps);
-  std::vector<JointPaths> best = finished(found);
-  if (std::any_of(found.begin(), found.end(), [](const Candidate& c) { return c.solution.converged; }))
-    return best;
-  for (JointPaths& paths : finished(exploration.found(kMostStepsAgain))) best.push_back(std::move(paths));
-  sort_by_cost(best);
-  return best;
+  std::vector<Candidate> found = exploration.found(kMostSteps);
+  if (std::none_of(found.begin(), found.end(), [](const Candidate& c) { return c.solution.converged; }))
+    found = exploration.found(kMostStepsAgain);
+  return finished(found);
 }
 
 std::optional<JointPaths> best_coarse_paths(const JointQuery& query,
