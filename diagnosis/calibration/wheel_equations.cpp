@@ -7,7 +7,7 @@
 namespace joulepath::calibration {
 namespace {
 
-constexpr int kKnownColumn = 6, kCurrentColumn = 7;
+constexpr int kCurrentColumn = 7;
 
 double mean_radius_m(const Geometry& geometry) {
   return 0.5 * (geometry.wheel_radius_m.left + geometry.wheel_radius_m.right);

@@ -47,19 +47,15 @@ Lagged swing_of(const Eigen::VectorXd& acceleration, const NoisySquares& noise, 
 }  // namespace
 
 BodyLag swing_along(const RunSignals& signals, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  const Sided<Eigen::VectorXd>& a = signals.wheel_acceleration_rad_s2;
-  return {.along = swing_of(0.5 * (r.left * a.left + r.right * a.right), signals.acceleration_noise.driving,
-                            signals),
+  const Twist<Eigen::VectorXd> rolled = body_twist(geometry, signals.wheel_acceleration_rad_s2);
+  return {.along = swing_of(rolled.speed_m_s, signals.acceleration_noise.driving, signals),
           .turn = none(signals.size())};
 }
 
 BodyLag swing_in_yaw(const RunSignals& signals, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  const Sided<Eigen::VectorXd>& a = signals.wheel_acceleration_rad_s2;
+  const Twist<Eigen::VectorXd> rolled = body_twist(geometry, signals.wheel_acceleration_rad_s2);
   return {.along = none(signals.size()),
-          .turn = swing_of((r.right * a.right - r.left * a.left) / (2 * geometry.half_track_m),
-                           signals.acceleration_noise.turning, signals)};
+          .turn = swing_of(rolled.yaw_rate_rad_s, signals.acceleration_noise.turning, signals)};
 }
 
 }  // namespace joulepath

@@ -53,14 +53,12 @@ BodyLag contact_creep(const Plant& plant, const RunSignals& signals,
     along_lag_s[j] = c * mass.mass_kg;
     turn_lag_s[j] = c * mass.yaw_inertia_kg_m2 / (half_track_m * half_track_m);
   }
-  const Sided<double>& r = plant.robot.geometry.wheel_radius_m;
-  const Sided<Eigen::VectorXd>& a = signals.wheel_acceleration_rad_s2;
-  Sided<Eigen::VectorXd> jerk = signals.wheel_jerk_rad_s3;
-  if (jerk.left.size() != n) jerk.left = jerk.right = Eigen::VectorXd::Zero(n);
-  return {.along = follow(along, along_lag_s, 0.5 * (r.left * a.left + r.right * a.right),
-                          0.5 * (r.left * jerk.left + r.right * jerk.right), signals.period_s),
-          .turn = follow(turn, turn_lag_s, (r.right * a.right - r.left * a.left) / (2 * half_track_m),
-                         (r.right * jerk.right - r.left * jerk.left) / (2 * half_track_m), signals.period_s)};
+  Sided<Eigen::VectorXd> wheel_jerk = signals.wheel_jerk_rad_s3;
+  if (wheel_jerk.left.size() != n) wheel_jerk.left = wheel_jerk.right = Eigen::VectorXd::Zero(n);
+  const Twist<Eigen::VectorXd> rate = body_twist(plant.robot.geometry, signals.wheel_acceleration_rad_s2),
+                               jerk = body_twist(plant.robot.geometry, wheel_jerk);
+  return {.along = follow(along, along_lag_s, rate.speed_m_s, jerk.speed_m_s, signals.period_s),
+          .turn = follow(turn, turn_lag_s, rate.yaw_rate_rad_s, jerk.yaw_rate_rad_s, signals.period_s)};
 }
 
 }  // namespace joulepath
